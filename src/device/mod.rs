@@ -1,0 +1,123 @@
+//! The device kinds with their nominal motion laws, one file each.
+//!
+//! A device computes in SI units and knows neither registers nor names: the engine hands it commands by port, asks it to
+//! move by some seconds, and asks for its reports. It may be moved by any span, not only by the engine's step: a
+//! diagnosis applies commands at their recorded instants and samples reports at theirs.
+
+/// One device.
+///
+/// Time passes only in [`advance`](Device::advance). Between two calls its commands are constant, so that a law with a
+/// closed form is computed exactly whatever the span.
+pub trait Device: Send {
+    /// Takes the value of a command port, in SI units (BOOL as 0 or 1), from now on.
+    fn command(&mut self, port: usize, value: f64);
+
+    /// What the world about it is like now; called after parts have moved and before [`report`](Device::report).
+    fn sense(&mut self, _surroundings: &Surroundings) {}
+
+    /// Moves by `seconds`.
+    fn advance(&mut self, seconds: f64);
+
+    /// Writes the state as it is now into the report ports' places of `reports`, which has one place for every port of
+    /// the kind; in SI units, BOOL as 0 or 1. What follows its command at once already follows it here.
+    fn report(&self, reports: &mut [f64]);
+
+    /// Gives every number of the state to `visit`, in an order that never changes: for the state's hash.
+    fn state(&self, visit: &mut dyn FnMut(f64));
+
+    /// What it is to the parts.
+    fn role(&self) -> Role<'_> {
+        Role::Apart
+    }
+}
+
+/// What a device learns of the world about it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Surroundings {
+    /// A part cuts the beam of light barrier A.
+    pub barrier_a: bool,
+    /// A part cuts the beam of light barrier B.
+    pub barrier_b: bool,
+    /// A part is sealed at the cups.
+    pub sealed: bool,
+}
+
+/// What a device is to the parts: how the engine's part phase sees it.
+#[derive(Debug)]
+pub enum Role<'a> {
+    /// It touches no part.
+    Apart,
+    /// It carries parts.
+    Carries(&'a Belt),
+    /// It pushes parts.
+    Pushes(&'a Plate),
+    /// It moves a tool in space.
+    Moves(&'a Tool),
+    /// It holds a part by its cups.
+    Holds(&'a Cups),
+}
+
+/// The shape of a conveyor's surface, in the frame of its instance: x along it, y to its left, z up, the surface at z = 0
+/// and its start at x = 0 on the centre line y = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    Straight {
+        length: f64,
+        width: f64,
+    },
+    /// An arc of `radius` on the centre line that turns by `angle` (radians, to the left if positive) from the x direction.
+    Curve {
+        radius: f64,
+        angle: f64,
+        width: f64,
+    },
+}
+
+/// A conveyor's surface and how far it moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Belt {
+    pub surface: Surface,
+    /// Present speed along the centre line, m/s.
+    pub velocity: f64,
+    /// How far the surface moved in the last `advance`, m on the centre line.
+    pub displacement: f64,
+    /// Where the beams of the light barriers cross, m along the centre line from the start.
+    pub barriers: [Option<f64>; 2],
+    /// Height of the beams above the surface, m.
+    pub beam_height: f64,
+}
+
+/// A pusher's plate: a box that moves along +x of its instance's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plate {
+    /// Where its front face stands, m: 0 when retracted.
+    pub position: f64,
+    /// How far it moved in the last `advance`, m.
+    pub displacement: f64,
+    /// Thickness (x), width (y), height (z) of the plate, m. It lies behind the front face, on z = 0, centred on y = 0.
+    pub size: [f64; 3],
+    /// Where along x the beams of its light barriers cross, m from the retracted front face; they lie along y.
+    pub barriers: [Option<f64>; 2],
+    /// Height of the beams above z = 0, m.
+    pub beam_height: f64,
+}
+
+/// Where a robot holds its tool, in the frame of its instance: metres, and the rotation about z in radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tool {
+    pub position: [f64; 3],
+    pub rotation: f64,
+}
+
+/// A suction gripper's cups.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cups {
+    /// Where the cups' rim lies from the tool of the robot that carries it, m.
+    pub offset: [f64; 3],
+    /// How far below the rim a part's top may lie and still be sealed, m.
+    pub reach: f64,
+    /// Vacuum holds: the part at the cups follows them.
+    pub vacuum: bool,
+    /// Whether a part is taken to be sealed always, with no part in the model.
+    pub always_sealed: bool,
+}

@@ -1,0 +1,8 @@
+//! **kinetwin** is the machine until the machine stands, and its honest mirror after: a kinematic 3D engine for the
+//! virtual commissioning of IEC 61499 automations, fed over the CPS-Protocol.
+pub mod device;
+pub mod plant;
+pub mod prototype;
+pub mod signal_map;
+pub mod time;
+pub mod value;
