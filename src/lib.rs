@@ -1,5 +1,7 @@
 //! **kinetwin** is the machine until the machine stands, and its honest mirror after: a kinematic 3D engine for the
 //! virtual commissioning of IEC 61499 automations, fed over the CPS-Protocol.
+#![deny(unsafe_code)]
+
 pub mod device;
 pub mod plant;
 pub mod prototype;
