@@ -368,6 +368,10 @@ pub enum Quantity {
     LinearDamping,
     /// N·m·s/rad
     AngularDamping,
+    /// N/m
+    LinearStiffness,
+    /// N·m/rad
+    AngularStiffness,
 }
 
 /// A unit that a file may declare: its quantity, and the factor that takes a number in it to SI.
@@ -412,6 +416,8 @@ impl Unit {
         Unit { symbol: "1/s", quantity: Quantity::Rate, to_si: 1.0 },
         Unit { symbol: "N.s/m", quantity: Quantity::LinearDamping, to_si: 1.0 },
         Unit { symbol: "N.m.s/rad", quantity: Quantity::AngularDamping, to_si: 1.0 },
+        Unit { symbol: "N/m", quantity: Quantity::LinearStiffness, to_si: 1.0 },
+        Unit { symbol: "N.m/rad", quantity: Quantity::AngularStiffness, to_si: 1.0 },
     ];
 
     /// The unit written `symbol`; `²` and `·` are taken for `2` and `.`.

@@ -4,6 +4,60 @@
 //! move by some seconds, and asks for its reports. It may be moved by any span, not only by the engine's step: a
 //! diagnosis applies commands at their recorded instants and samples reports at theirs.
 
+mod cartesian_robot;
+mod conveyor;
+mod conveyor_curve;
+mod encoder_motor;
+mod loading_bay;
+mod pusher;
+mod servo_axis;
+mod straight_conveyor;
+mod suction_cap_gripper;
+mod table;
+mod unloading_bay;
+
+use crate::plant::{Parameters, PartKind};
+use crate::prototype::kind::KindDescriptor;
+
+/// Every device kind there is.
+pub static KINDS: &[&KindDescriptor] = &[
+    &straight_conveyor::KIND,
+    &conveyor_curve::KIND,
+    &pusher::KIND,
+    &cartesian_robot::KIND,
+    &suction_cap_gripper::KIND,
+    &loading_bay::KIND,
+    &unloading_bay::KIND,
+    &servo_axis::KIND,
+    &encoder_motor::KIND,
+];
+
+/// Parameters that are each in their range, and do not fit together.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{instance}: {parameter} {problem}")]
+pub struct BuildError {
+    /// The instance whose device it is.
+    pub instance: String,
+    /// The parameter to change.
+    pub parameter: &'static str,
+    /// What is wrong with it, found and expected.
+    pub problem: String,
+}
+
+/// Builds a device of `kind` for the instance called `instance`, at rest, all commands 0 or false (an axis's
+/// `torqueEnabled` true), its clock at 0.
+///
+/// `seed` is the run's: with the instance's name it fixes everything that is random about the device.
+pub fn build(
+    kind: &KindDescriptor,
+    _parameters: &Parameters,
+    instance: &str,
+    _seed: u64,
+) -> Result<Box<dyn Device>, BuildError> {
+    let problem = format!("{} has no law", kind.name);
+    Err(BuildError { instance: instance.to_owned(), parameter: "kind", problem })
+}
+
 /// One device.
 ///
 /// Time passes only in [`advance`](Device::advance). Between two calls its commands are constant, so that a law with a
@@ -55,6 +109,10 @@ pub enum Role<'a> {
     Moves(&'a Tool),
     /// It holds a part by its cups.
     Holds(&'a Cups),
+    /// It puts parts on a belt.
+    Makes(&'a Source),
+    /// It takes parts off a belt.
+    Takes(&'a Sink),
 }
 
 /// The shape of a conveyor's surface, in the frame of its instance: x along it, y to its left, z up, the surface at z = 0
@@ -85,6 +143,17 @@ pub struct Belt {
     pub barriers: [Option<f64>; 2],
     /// Height of the beams above the surface, m.
     pub beam_height: f64,
+    /// How a part that stands on this belt and on another is carried.
+    pub transfer: Transfer,
+}
+
+/// How a part on two belts moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transfer {
+    /// With the belt that carries most of its footprint.
+    Most,
+    /// With both, by the share of its footprint that each carries.
+    Share,
 }
 
 /// A pusher's plate: a box that moves along +x of its instance's frame.
@@ -120,4 +189,59 @@ pub struct Cups {
     pub vacuum: bool,
     /// Whether a part is taken to be sealed always, with no part in the model.
     pub always_sealed: bool,
+}
+
+/// A loading bay: what it puts on which belt, and when. Which belt is the bay's parameter `belt`.
+///
+/// The engine puts a part there for every instant in `due` where the place is free, and skips the instant otherwise;
+/// it stops after `limit` parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Where the part's centre is put: along the belt's centre line from its start, and to the left of it, m.
+    pub at: [f64; 2],
+    /// How far it is turned to the left from the running direction there, rad.
+    pub turn: f64,
+    pub kind: PartKind,
+    /// Length, width, height of the part, m.
+    pub size: [f64; 3],
+    /// What stands on it.
+    pub load: Option<Load>,
+    /// How many parts it puts there at most, the load's apart.
+    pub limit: Option<u64>,
+    /// The instants that fell due in the last `advance`, each as the seconds that passed from it to the advance's end,
+    /// the oldest first. Before the first `advance`: those due at t = 0.
+    pub due: Vec<f64>,
+}
+
+/// A regular stack of parts that stands on a part, centred on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    pub kind: PartKind,
+    /// Length, width, height of each, m.
+    pub size: [f64; 3],
+    /// How many along the part's length, along its width, and one on the other; each at least 1.
+    pub counts: [u32; 3],
+    /// Room between neighbours in a layer, m.
+    pub gap: f64,
+}
+
+/// An unloading bay: what it takes off which belt. Which belt is the bay's parameter `belt`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sink {
+    pub place: Place,
+    /// What kind it takes; any if `None`. What stands on a part goes with it.
+    pub kind: Option<PartKind>,
+    /// How long a part stays at the place until it is gone, s.
+    pub delay: f64,
+}
+
+/// Where on a belt's centre line a part is taken: when its centre passes there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// The end, running forwards.
+    End,
+    /// The start, running backwards.
+    Start,
+    /// So many metres from the start, running either way.
+    At(f64),
 }

@@ -74,8 +74,12 @@ pub enum ParameterType {
     Choice(&'static [&'static str]),
     /// Any text.
     Text,
-    /// A list of numbers of one unit, separated by `;` or blanks.
-    Numbers,
+    /// A list of exactly `count` numbers of one unit, separated by `;` or blanks, each kept in SI.
+    Numbers {
+        count: usize,
+        min: f64,
+        max: f64,
+    },
     /// The name of another instance of the plant; empty means none.
     Instance,
 }
