@@ -5,6 +5,8 @@
 pub mod device;
 pub mod plant;
 pub mod prototype;
+pub mod session;
 pub mod signal_map;
 pub mod time;
 pub mod value;
+pub mod wire;

@@ -1,0 +1,99 @@
+//! Client and server of the CPS-Protocol as state machines **without IO and without a clock**.
+//!
+//! A session is told what happens ([`Input`], with the instant it happens at) and says what to do ([`Output`]). Its owner
+//! has the socket and the clock:
+//!
+//! 1. call [`Client::handle`] or [`Server::handle`] for everything the connection gives, and for the instant that
+//!    [`timeout`](Client::timeout) names when that instant has come;
+//! 2. call [`send`](Client::send) when values are to go out, [`disconnect`](Client::disconnect) when the run ends;
+//! 3. after **every** such call, [`poll`](Client::poll) until it gives `None`, and obey each output in order.
+//!
+//! Names become registers here, once, in both directions: above it everyone knows names, below it nobody does. Both sides
+//! hold the same [`SignalMap`](crate::signal_map::SignalMap); the automation's outputs are its commands
+//! ([`Direction::Command`](crate::signal_map::Direction)), the automation's inputs its reports.
+//!
+//! # Connections
+//!
+//! A [`Client`] outlives its connections. It asks for one with [`ClientEvent::Dial`]; the owner answers with
+//! [`Input::Opened`], or with [`Input::Closed`] where nobody answers. All inputs are about the connection dialled last:
+//! once the client said [`Output::Close`], the owner drops that connection and reports nothing more of it.
+//! A [`Server`] is one connection, from its handshake to its end.
+//!
+//! # Values
+//!
+//! [`Staged`] holds what one `SendValue` brought: its good values by register, in the order in which they stand, each
+//! register once (the last good one wins), its text for the trace, and its faults, which the session has already
+//! answered. Two messages are never merged: what they set is two events, and when they act is the bank's business.
+
+mod client;
+mod interface;
+mod query;
+mod receive;
+mod server;
+
+pub use client::{Client, ClientEvent, ClientSettings, Ending};
+pub use interface::{Mismatch, interface_of, mismatches};
+pub use query::{Query, QueryEvent};
+pub use server::{Server, ServerEvent, ServerSettings};
+
+use crate::signal_map::RegisterId;
+use crate::value::Value;
+use crate::wire::Fault;
+
+/// What a session is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input<'a> {
+    /// The connection stands: the WebSocket handshake is done.
+    Opened,
+    /// A text message arrived.
+    Text(&'a str),
+    /// A binary message arrived.
+    Binary,
+    /// A text message that is not UTF-8 arrived; the transport could not hand it in.
+    InvalidUtf8,
+    /// A message longer than the limit of so many bytes arrived; the transport did not read it.
+    TooLong { limit: usize },
+    /// The connection ended, or could not be made.
+    Closed,
+    /// The instant named by `timeout` has come. Handed in too early, it does nothing.
+    Timeout,
+}
+
+/// What a session wants done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Output<E> {
+    /// Send this text message.
+    Transmit(String),
+    /// Something happened that the owner should know.
+    Event(E),
+    /// Close the connection with this WebSocket status code (RFC 6455, section 7.4) and reason, and drop it.
+    Close { code: u16, reason: String },
+}
+
+/// What one accepted `SendValue` brought.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Staged {
+    /// The good values, at least one, each register once.
+    pub values: Vec<(RegisterId, Value)>,
+    /// The message as it came, as one line: `{"SendValue":[…]}`. Only its line breaks have become blanks, so that it can
+    /// stand in a trace.
+    pub text: String,
+    /// What was wrong with other entries of the message. The `SendValueReply` has been sent.
+    pub faults: Vec<Fault>,
+}
+
+/// WebSocket status codes (RFC 6455, section 7.4.1) that sessions close with.
+pub mod close_code {
+    /// The session is over.
+    pub const NORMAL: u16 = 1000;
+    /// A text message that is not UTF-8.
+    pub const NOT_UTF8: u16 = 1007;
+    /// The peer did not keep to the protocol, or not to its times.
+    pub const POLICY: u16 = 1008;
+    /// A message over the limit.
+    pub const TOO_BIG: u16 = 1009;
+}
+
+/// How many outputs a session holds for an owner that does not [`poll`](Client::poll). Past it the session closes its
+/// connection, because it must neither lose a value silently nor grow for ever.
+pub const OUTPUT_LIMIT: usize = 65_536;

@@ -1,0 +1,541 @@
+//! JSON text, read once and borrowed from (RFC 8259).
+//!
+//! A scanner of our own, because a message must not fail as a whole where one value in it does: `1e400` is JSON, no number
+//! of any type of ours, and a fault of its one entry. The numbers stay text until their signal's type is known, so that
+//! an ULINT keeps its last digit and a REAL is rounded once.
+
+use std::borrow::Cow;
+use std::fmt;
+
+/// How deep arrays and objects may stand in each other. The deepest message of the protocol needs 4.
+pub const DEPTH_LIMIT: u32 = 32;
+
+/// Why a text is no JSON, or none that is read here.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ScanError {
+    /// The text breaks the grammar.
+    #[error("malformed JSON at byte {at}: expected {expected}, found {found}")]
+    Syntax { at: usize, expected: &'static str, found: String },
+    /// Arrays and objects stand too deep in each other.
+    #[error("JSON nested deeper than {DEPTH_LIMIT} at byte {at}")]
+    TooDeep { at: usize },
+}
+
+/// What a JSON value is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    Null,
+    Bool,
+    Number,
+    String,
+    Array,
+    Object,
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Shape::Null => "null",
+            Shape::Bool => "a boolean",
+            Shape::Number => "a number",
+            Shape::String => "a string",
+            Shape::Array => "an array",
+            Shape::Object => "an object",
+        })
+    }
+}
+
+/// The text of one well-formed JSON value, without blanks around it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Raw<'a>(&'a str);
+
+impl<'a> Raw<'a> {
+    /// Checks that `text` is one JSON value, not nested too deep; blanks around it are cut off.
+    pub fn new(text: &'a str) -> Result<Raw<'a>, ScanError> {
+        let mut scanner = Scanner::new(text);
+        let raw = scanner.value()?;
+        scanner.end()?;
+        Ok(raw)
+    }
+
+    /// The value's text.
+    pub fn text(self) -> &'a str {
+        self.0
+    }
+
+    /// What the value is.
+    pub fn shape(self) -> Shape {
+        match self.0.as_bytes().first() {
+            Some(b'n') => Shape::Null,
+            Some(b't' | b'f') => Shape::Bool,
+            Some(b'"') => Shape::String,
+            Some(b'[') => Shape::Array,
+            Some(b'{') => Shape::Object,
+            _ => Shape::Number,
+        }
+    }
+
+    /// `true` or `false`, if it is one of them.
+    pub fn as_bool(self) -> Option<bool> {
+        match self.0 {
+            "true" => Some(true),
+            "false" => Some(false),
+            _ => None,
+        }
+    }
+
+    /// The number's text, if it is a number.
+    pub fn as_number(self) -> Option<&'a str> {
+        (self.shape() == Shape::Number).then_some(self.0)
+    }
+
+    /// The string without its quotes and escapes; `None` if it is no string, or holds half a surrogate pair.
+    pub fn as_str(self) -> Option<Cow<'a, str>> {
+        let inside = self.quoted()?;
+        if !inside.contains('\\') {
+            return Some(Cow::Borrowed(inside));
+        }
+        let mut plain = String::with_capacity(inside.len());
+        for unit in char::decode_utf16(Units { rest: inside.chars(), second: None }) {
+            plain.push(unit.ok()?);
+        }
+        Some(Cow::Owned(plain))
+    }
+
+    /// The string's UTF-16 code units, whether they pair or not; `None` if it is no string.
+    pub fn as_utf16(self) -> Option<impl Iterator<Item = u16>> {
+        Some(Units { rest: self.quoted()?.chars(), second: None })
+    }
+
+    /// The elements, if it is an array.
+    pub fn elements(self) -> Option<Vec<Raw<'a>>> {
+        let mut elements = Vec::new();
+        Scanner::new(self.0)
+            .array(|scanner| {
+                elements.push(scanner.value()?);
+                Ok::<(), ScanError>(())
+            })
+            .ok()?;
+        Some(elements)
+    }
+
+    /// The text for a message to people: what it is, and its beginning.
+    pub fn described(self) -> String {
+        match self.shape() {
+            Shape::Null => "null".to_owned(),
+            shape => format!("{shape}, {}", abbreviated(self.0)),
+        }
+    }
+
+    fn quoted(self) -> Option<&'a str> {
+        self.0.strip_prefix('"')?.strip_suffix('"')
+    }
+}
+
+/// `text`, or its beginning if it is long.
+pub(super) fn abbreviated(text: &str) -> Cow<'_, str> {
+    const LONG: usize = 40;
+    match text.char_indices().nth(LONG) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => Cow::Owned(format!("{}… ({} bytes)", &text[..end], text.len())),
+    }
+}
+
+/// The UTF-16 code units of the inside of a well-formed JSON string.
+struct Units<'a> {
+    rest: std::str::Chars<'a>,
+    /// The second half of a character that has two.
+    second: Option<u16>,
+}
+
+impl Iterator for Units<'_> {
+    type Item = u16;
+
+    fn next(&mut self) -> Option<u16> {
+        if let Some(unit) = self.second.take() {
+            return Some(unit);
+        }
+        let c = match self.rest.next()? {
+            '\\' => match self.rest.next()? {
+                'b' => '\u{8}',
+                'f' => '\u{c}',
+                'n' => '\n',
+                'r' => '\r',
+                't' => '\t',
+                'u' => {
+                    let digits = self.rest.as_str().get(..4)?;
+                    self.rest = self.rest.as_str()[4..].chars();
+                    return u16::from_str_radix(digits, 16).ok();
+                }
+                same => same,
+            },
+            c => c,
+        };
+        let mut units = [0; 2];
+        let encoded = c.encode_utf16(&mut units);
+        self.second = encoded.get(1).copied();
+        encoded.first().copied()
+    }
+}
+
+/// Reads a JSON text from front to back.
+///
+/// Its methods for objects and arrays call back for each member or element, and the callback must read that value.
+#[derive(Debug)]
+pub(super) struct Scanner<'a> {
+    text: &'a str,
+    /// The place of the next byte to read.
+    at: usize,
+    depth: u32,
+}
+
+impl<'a> Scanner<'a> {
+    pub(super) fn new(text: &'a str) -> Scanner<'a> {
+        Scanner { text, at: 0, depth: 0 }
+    }
+
+    /// Reads any value.
+    pub(super) fn value(&mut self) -> Result<Raw<'a>, ScanError> {
+        self.blanks();
+        let start = self.at;
+        self.skip()?;
+        Ok(Raw(&self.text[start..self.at]))
+    }
+
+    /// Makes sure that nothing but blanks follows.
+    pub(super) fn end(&mut self) -> Result<(), ScanError> {
+        self.blanks();
+        if self.at == self.text.len() { Ok(()) } else { Err(self.unexpected("nothing more")) }
+    }
+
+    /// What the next value seems to be by its first byte; `None` if it cannot be a value.
+    pub(super) fn shape(&mut self) -> Option<Shape> {
+        self.blanks();
+        Some(match self.peek()? {
+            b'n' => Shape::Null,
+            b't' | b'f' => Shape::Bool,
+            b'-' | b'0'..=b'9' => Shape::Number,
+            b'"' => Shape::String,
+            b'[' => Shape::Array,
+            b'{' => Shape::Object,
+            _ => return None,
+        })
+    }
+
+    /// Reads an object; `member` is called with each key, its quotes and escapes still on, and reads the value.
+    pub(super) fn object<E: From<ScanError>>(
+        &mut self,
+        mut member: impl FnMut(&mut Self, Raw<'a>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.blanks();
+        self.open(b'{', "an object")?;
+        if !self.close(b'}') {
+            loop {
+                self.blanks();
+                let start = self.at;
+                self.string()?;
+                let key = Raw(&self.text[start..self.at]);
+                self.blanks();
+                self.expect(b':', "a colon")?;
+                member(self, key)?;
+                if self.close(b'}') {
+                    break;
+                }
+                self.expect(b',', "a comma or the object's closing brace")?;
+            }
+        }
+        self.depth -= 1;
+        Ok(())
+    }
+
+    /// Reads an array; `element` is called for each element, and reads it.
+    pub(super) fn array<E: From<ScanError>>(
+        &mut self,
+        mut element: impl FnMut(&mut Self) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.blanks();
+        self.open(b'[', "an array")?;
+        if !self.close(b']') {
+            loop {
+                element(self)?;
+                if self.close(b']') {
+                    break;
+                }
+                self.expect(b',', "a comma or the array's closing bracket")?;
+            }
+        }
+        self.depth -= 1;
+        Ok(())
+    }
+
+    fn skip(&mut self) -> Result<(), ScanError> {
+        match self.peek() {
+            Some(b'{') => self.object(|scanner, _| scanner.value().map(drop)),
+            Some(b'[') => self.array(|scanner| scanner.value().map(drop)),
+            Some(b'"') => self.string(),
+            Some(b'-' | b'0'..=b'9') => self.number(),
+            Some(b't') => self.literal("true"),
+            Some(b'f') => self.literal("false"),
+            Some(b'n') => self.literal("null"),
+            _ => Err(self.unexpected("a value")),
+        }
+    }
+
+    fn string(&mut self) -> Result<(), ScanError> {
+        self.expect(b'"', "a string")?;
+        loop {
+            let rest = &self.text.as_bytes()[self.at..];
+            self.at += rest.iter().position(|&b| b == b'"' || b == b'\\' || b < 0x20).unwrap_or(rest.len());
+            match self.peek() {
+                Some(b'"') => {
+                    self.at += 1;
+                    return Ok(());
+                }
+                Some(b'\\') => self.escape()?,
+                _ => return Err(self.unexpected("the string's closing quote")),
+            }
+        }
+    }
+
+    fn escape(&mut self) -> Result<(), ScanError> {
+        self.at += 1;
+        match self.peek() {
+            Some(b'"' | b'\\' | b'/' | b'b' | b'f' | b'n' | b'r' | b't') => self.at += 1,
+            Some(b'u') => {
+                self.at += 1;
+                for _ in 0..4 {
+                    if !self.peek().is_some_and(|b| b.is_ascii_hexdigit()) {
+                        return Err(self.unexpected("four hexadecimal digits"));
+                    }
+                    self.at += 1;
+                }
+            }
+            _ => return Err(self.unexpected("an escape that JSON has")),
+        }
+        Ok(())
+    }
+
+    fn number(&mut self) -> Result<(), ScanError> {
+        self.at += usize::from(self.peek() == Some(b'-'));
+        if self.peek() == Some(b'0') {
+            self.at += 1;
+        } else {
+            self.digits()?;
+        }
+        if self.peek() == Some(b'.') {
+            self.at += 1;
+            self.digits()?;
+        }
+        if matches!(self.peek(), Some(b'e' | b'E')) {
+            self.at += 1;
+            self.at += usize::from(matches!(self.peek(), Some(b'+' | b'-')));
+            self.digits()?;
+        }
+        Ok(())
+    }
+
+    fn digits(&mut self) -> Result<(), ScanError> {
+        let rest = &self.text.as_bytes()[self.at..];
+        let count = rest.iter().position(|b| !b.is_ascii_digit()).unwrap_or(rest.len());
+        if count == 0 {
+            return Err(self.unexpected("a digit"));
+        }
+        self.at += count;
+        Ok(())
+    }
+
+    fn literal(&mut self, word: &'static str) -> Result<(), ScanError> {
+        if !self.text.as_bytes()[self.at..].starts_with(word.as_bytes()) {
+            return Err(self.unexpected("a value"));
+        }
+        self.at += word.len();
+        Ok(())
+    }
+
+    fn open(&mut self, bracket: u8, what: &'static str) -> Result<(), ScanError> {
+        self.expect(bracket, what)?;
+        self.depth += 1;
+        if self.depth > DEPTH_LIMIT { Err(ScanError::TooDeep { at: self.at - 1 }) } else { Ok(()) }
+    }
+
+    /// Takes blanks and then `bracket`, if it is what follows.
+    fn close(&mut self, bracket: u8) -> bool {
+        self.blanks();
+        let here = self.peek() == Some(bracket);
+        self.at += usize::from(here);
+        here
+    }
+
+    fn expect(&mut self, byte: u8, what: &'static str) -> Result<(), ScanError> {
+        if self.peek() != Some(byte) {
+            return Err(self.unexpected(what));
+        }
+        self.at += 1;
+        Ok(())
+    }
+
+    fn blanks(&mut self) {
+        while matches!(self.peek(), Some(b' ' | b'\t' | b'\n' | b'\r')) {
+            self.at += 1;
+        }
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.at).copied()
+    }
+
+    fn unexpected(&self, expected: &'static str) -> ScanError {
+        let found = match self.text.get(self.at..).map(|rest| rest.chars().next()) {
+            Some(None) => "the end of the text".to_owned(),
+            Some(Some(c)) => format!("{c:?}"),
+            // Not at the start of a character: inside one, after an escape's backslash.
+            None => "an odd character".to_owned(),
+        };
+        ScanError::Syntax { at: self.at, expected, found }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[track_caller]
+    fn refused(text: &str, expect: &str) {
+        let error = Raw::new(text).expect_err(text).to_string();
+        assert_eq!(error, expect, "{text}");
+    }
+
+    #[test]
+    fn errors_say_where_what_was_expected_and_what_was_found() {
+        refused("", "malformed JSON at byte 0: expected a value, found the end of the text");
+        refused("{\"a\" 1}", "malformed JSON at byte 5: expected a colon, found '1'");
+        refused("[1,]", "malformed JSON at byte 3: expected a value, found ']'");
+        refused("[1 2]", "malformed JSON at byte 3: expected a comma or the array's closing bracket, found '2'");
+        refused("{\"a\":1,}", "malformed JSON at byte 7: expected a string, found '}'");
+        refused("01", "malformed JSON at byte 1: expected nothing more, found '1'");
+        refused("1.", "malformed JSON at byte 2: expected a digit, found the end of the text");
+        refused("\"\\x\"", "malformed JSON at byte 2: expected an escape that JSON has, found 'x'");
+        refused("\"\\u12g4\"", "malformed JSON at byte 5: expected four hexadecimal digits, found 'g'");
+        refused("\"a\nb\"", "malformed JSON at byte 2: expected the string's closing quote, found '\\n'");
+        refused("NaN", "malformed JSON at byte 0: expected a value, found 'N'");
+        refused("nul", "malformed JSON at byte 0: expected a value, found 'n'");
+        refused("\u{feff}{}", "malformed JSON at byte 0: expected a value, found '\\u{feff}'");
+    }
+
+    #[test]
+    fn thirty_two_deep_is_read_and_thirty_three_refused() {
+        let nested = |depth: usize| "[".repeat(depth) + &"]".repeat(depth);
+        assert!(Raw::new(&nested(32)).is_ok());
+        refused(&nested(33), "JSON nested deeper than 32 at byte 32");
+        // A million brackets must not reach the end of the stack.
+        refused(&"[".repeat(1_000_000), "JSON nested deeper than 32 at byte 32");
+    }
+
+    #[test]
+    fn strings_lose_their_escapes() {
+        let check = |text: &str, expect: Option<&str>| {
+            assert_eq!(Raw::new(text).expect(text).as_str().as_deref(), expect, "{text}");
+        };
+        check(r#""plain""#, Some("plain"));
+        check(r#""\"\\\/\b\f\n\r\t""#, Some("\"\\/\u{8}\u{c}\n\r\t"));
+        check(r#""T0s\u003d""#, Some("T0s="));
+        check(r#""\u00e9é\ud83d\ude00😀""#, Some("éé😀😀"));
+        check(r#""\ud83d""#, None);
+        check(r#""\ude00\ud83d""#, None);
+        check("1", None);
+    }
+
+    #[test]
+    fn long_values_are_abbreviated_for_people() {
+        let long = format!("\"{}\"", "ä".repeat(100));
+        assert_eq!(
+            Raw::new(&long).expect("a string").described(),
+            format!("a string, \"{}… (202 bytes)", "ä".repeat(39))
+        );
+        assert_eq!(Raw::new(" 0.5 ").expect("a number").described(), "a number, 0.5");
+        assert_eq!(Raw::new("null").expect("null").described(), "null");
+    }
+
+    /// Texts that are JSON, nearly JSON, or not at all.
+    fn texts() -> impl Strategy<Value = String> {
+        let token = prop::sample::select(vec![
+            "{",
+            "}",
+            "[",
+            "]",
+            ":",
+            ",",
+            "\"a\"",
+            "\"\\u12aF\"",
+            "\"\\ud800\"",
+            "\"",
+            "\\",
+            "0",
+            "-0",
+            "1.5",
+            "1e9",
+            "-",
+            "1e+",
+            ".5",
+            "01",
+            "true",
+            "false",
+            "null",
+            "tru",
+            " ",
+            "\n",
+            "\t",
+            "é",
+            "\u{0}",
+            "1e400",
+            "\u{a0}",
+        ]);
+        prop_oneof![prop::collection::vec(token, 0..12).prop_map(|tokens| tokens.concat()), any::<String>()]
+    }
+
+    /// A well-formed JSON text, blanks in it.
+    fn documents() -> impl Strategy<Value = String> {
+        let leaf = prop_oneof![
+            any::<f64>().prop_map(|n| serde_json::json!(n).to_string()),
+            any::<i64>().prop_map(|n| n.to_string()),
+            any::<String>().prop_map(|s| serde_json::json!(s).to_string()),
+            Just("true".to_owned()),
+            Just(" null\t".to_owned()),
+        ];
+        leaf.prop_recursive(6, 40, 5, |inner| {
+            prop_oneof![
+                prop::collection::vec(inner.clone(), 0..5).prop_map(|v| format!("[{}]", v.join(" ,"))),
+                prop::collection::vec((any::<String>(), inner), 0..5).prop_map(|members| {
+                    let members = members.iter().map(|(k, v)| format!("{}:\n{v}", serde_json::json!(k)));
+                    format!(" {{{} }}", members.collect::<Vec<_>>().join(","))
+                }),
+            ]
+        })
+    }
+
+    proptest! {
+        /// serde_json reads the same grammar, by other code.
+        #[test]
+        fn what_is_json_is_what_another_reader_takes(text in texts()) {
+            let other = serde_json::from_str::<serde::de::IgnoredAny>(&text).is_ok();
+            prop_assert_eq!(Raw::new(&text).is_ok(), other, "{}", text);
+        }
+
+        #[test]
+        fn every_document_is_read(text in documents()) {
+            let raw = Raw::new(&text);
+            prop_assert!(raw.is_ok(), "{:?}: {:?}", text, raw);
+        }
+
+        #[test]
+        fn strings_read_as_another_reader_reads_them(text in any::<String>()) {
+            let quoted = serde_json::json!(text).to_string();
+            let raw = Raw::new(&quoted).expect("a string");
+            let read = raw.as_str();
+            prop_assert_eq!(read.as_deref(), Some(text.as_str()));
+            let units: Vec<u16> = raw.as_utf16().expect("a string").collect();
+            prop_assert_eq!(units, text.encode_utf16().collect::<Vec<_>>());
+        }
+    }
+}
