@@ -2,6 +2,7 @@
 //! virtual commissioning of IEC 61499 automations, fed over the CPS-Protocol.
 #![deny(unsafe_code)]
 
+pub mod bank;
 pub mod device;
 pub mod plant;
 pub mod prototype;
