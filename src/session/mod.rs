@@ -26,9 +26,11 @@
 //! answered. Two messages are never merged: what they set is two events, and when they act is the bank's business.
 
 mod client;
+mod exchange;
 mod interface;
+mod outbox;
 mod query;
-mod receive;
+mod selection;
 mod server;
 
 pub use client::{Client, ClientEvent, ClientSettings, Ending};

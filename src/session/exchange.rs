@@ -1,0 +1,225 @@
+//! Values in both directions, the same for either end: from the entries of a `SendValue` to registers and values, fault
+//! by fault, and from registers and values to a `SendValue`.
+
+use std::sync::Arc;
+
+use super::Staged;
+use crate::signal_map::{Direction, RegisterId, Signal, SignalMap};
+use crate::value::{Quantity, Value};
+use crate::wire::{Entry, Fault, Message, ResultCode, SendValueText, TextForm, read_value};
+
+/// The longest `SendValueReply` sent, in bytes: half the limit of a peer that keeps the default. A message of a megabyte
+/// with nothing but faults must not be answered with four.
+const REPLY_LIMIT_BYTES: usize = 512 * 1024;
+
+/// How many unknown names of one message are looked up among similar ones; for each, every name is compared.
+const SUGGESTIONS_PER_MESSAGE: usize = 8;
+
+/// One end of the exchange.
+#[derive(Debug)]
+pub(super) struct Exchange {
+    map: Arc<SignalMap>,
+    /// The direction of the signals that this end sets.
+    ours: Direction,
+    /// For each register, the number of the last message that held a good value of it, and that value's place.
+    seen: Vec<(u64, usize)>,
+    messages: u64,
+}
+
+/// What became of one `SendValue`.
+#[derive(Debug)]
+pub(super) struct Receipt {
+    /// What it brought; or, if it brought nothing, why.
+    pub(super) outcome: Result<Staged, String>,
+    /// The `SendValueReply` that it deserves.
+    pub(super) reply: Option<String>,
+    /// How many entries had no name; they cannot be answered.
+    pub(super) nameless: usize,
+}
+
+/// What is to be sent.
+#[derive(Debug)]
+pub(super) struct Sending {
+    pub(super) text: Option<String>,
+    /// Values that have no JSON form, with a sentence each.
+    pub(super) unsendable: Vec<(RegisterId, String)>,
+}
+
+impl Exchange {
+    pub(super) fn new(map: Arc<SignalMap>, ours: Direction) -> Exchange {
+        let seen = vec![(0, 0); map.signals().len()];
+        Exchange { map, ours, seen, messages: 0 }
+    }
+
+    pub(super) fn map(&self) -> &SignalMap {
+        &self.map
+    }
+
+    /// Reads the entries of a `SendValue` whose text is `text`.
+    pub(super) fn receive(&mut self, text: &str, entries: &[Entry<'_>]) -> Receipt {
+        self.messages += 1;
+        let mut values: Vec<(RegisterId, Value)> = Vec::with_capacity(entries.len());
+        let mut faults = Vec::new();
+        let mut nameless = 0;
+        let mut suggestions = SUGGESTIONS_PER_MESSAGE;
+        for entry in entries {
+            let Some(name) = &entry.name else {
+                nameless += 1;
+                continue;
+            };
+            match self.entry(name, entry, &mut suggestions) {
+                Err((result, message)) => faults.push(Fault { name: name.to_string(), result, message }),
+                Ok((register, value)) => match self.seen[register.index()] {
+                    (message, place) if message == self.messages => values[place].1 = value,
+                    _ => {
+                        self.seen[register.index()] = (self.messages, values.len());
+                        values.push((register, value));
+                    }
+                },
+            }
+        }
+        let reply = (!faults.is_empty()).then(|| reply(&faults));
+        let outcome = match values.is_empty() {
+            false => Ok(Staged { values, text: one_line(text), faults }),
+            true => Err(rejection(&faults, nameless)),
+        };
+        Receipt { outcome, reply, nameless }
+    }
+
+    fn entry(
+        &self,
+        name: &str,
+        entry: &Entry<'_>,
+        suggestions: &mut usize,
+    ) -> Result<(RegisterId, Value), (ResultCode, String)> {
+        let Some(register) = self.map.register(name) else {
+            let similar = (*suggestions > 0).then(|| similar(&self.map, name)).flatten();
+            *suggestions = suggestions.saturating_sub(1);
+            let hint = similar.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default();
+            return Err((ResultCode::NOT_FOUND, format!("no signal of this name{hint}")));
+        };
+        let signal = self.map.signal(register);
+        if signal.direction == self.ours {
+            let whose = match self.ours {
+                Direction::Report => "reported by the simulation",
+                Direction::Command => "set by the automation",
+            };
+            return Err((ResultCode::NOT_FOUND, whose.to_owned()));
+        }
+        let Some(raw) = entry.value else {
+            return Err((ResultCode::WRONG_TYPE, format!("expected {}, found no value", signal.ty)));
+        };
+        let value = read_value(raw, signal.ty, TextForm::Base64).map_err(|unfit| (unfit.result, unfit.message))?;
+        within_range(signal, &value).map_err(|message| (ResultCode::WRONG_VALUE, message))?;
+        Ok((register, value))
+    }
+
+    /// Writes a `SendValue` of those of `values` that this end sets and that have a JSON form.
+    pub(super) fn send<'v>(&self, values: impl ExactSizeIterator<Item = &'v (RegisterId, Value)>) -> Sending {
+        let mut text = SendValueText::with_capacity(values.len());
+        let mut unsendable = Vec::new();
+        for (register, value) in values {
+            let signal = self.map.signal(*register);
+            if signal.direction != self.ours {
+                unsendable.push((*register, format!("{} is the other side's to set, and was not sent", signal.name)));
+            } else if let Err(error) = text.push(&signal.name, value) {
+                unsendable.push((*register, format!("{} was not sent: {error}", signal.name)));
+            }
+        }
+        Sending { text: text.finish(), unsendable }
+    }
+}
+
+/// A message as one line, so that it can stand in a trace. Within JSON, a line break stands only where a blank may.
+pub(super) fn one_line(text: &str) -> String {
+    text.trim().replace(['\n', '\r'], " ")
+}
+
+/// Why a message brought no value.
+fn rejection(faults: &[Fault], nameless: usize) -> String {
+    match (faults.first(), faults.len(), nameless) {
+        (None, _, 0) => "the message holds no entry".to_owned(),
+        (None, _, nameless) => format!("{nameless} entries without a name"),
+        (Some(fault), 1, _) => fault.to_string(),
+        (Some(fault), count, _) => format!("{fault}; and {} more faults", count - 1),
+    }
+}
+
+/// The `SendValueReply` with all of `faults`, or with as many as keep it within its limit and the number of the others.
+fn reply(faults: &[Fault]) -> String {
+    let mut listed = faults.len();
+    loop {
+        let mut shown = faults[..listed].to_vec();
+        if listed < faults.len() {
+            let message = format!("{} more faults are not listed", faults.len() - listed);
+            shown.push(Fault { name: String::new(), result: faults[listed].result, message });
+        }
+        let text = Message::SendValueReply(shown).encode();
+        if text.len() <= REPLY_LIMIT_BYTES || listed == 0 {
+            return text;
+        }
+        listed /= 2;
+    }
+}
+
+/// Whether `value`, or every element of it, lies in the range that the signal declares.
+fn within_range(signal: &Signal, value: &Value) -> Result<(), String> {
+    if signal.min.is_none() && signal.max.is_none() {
+        return Ok(());
+    }
+    if let Value::Array(values) = value {
+        return values.iter().try_for_each(|value| within_range(signal, value));
+    }
+    let Some(number) = in_unit(signal, value) else { return Ok(()) };
+    // A bound of 0.1 is no REAL; the REAL nearest to it must be allowed.
+    let bound = |bound: f64| if matches!(value, Value::Real(_)) { f64::from(bound as f32) } else { bound };
+    if signal.min.is_some_and(|min| number < bound(min)) || signal.max.is_some_and(|max| number > bound(max)) {
+        let end = |end: Option<f64>, open: &str| end.map_or(open.to_owned(), |end| end.to_string());
+        return Err(format!(
+            "{value} is outside this signal's range, {} to {}{}{}",
+            end(signal.min, "any"),
+            end(signal.max, "any"),
+            if signal.unit.symbol.is_empty() { "" } else { " " },
+            signal.unit
+        ));
+    }
+    Ok(())
+}
+
+/// The number in the signal's unit. A TIME says itself what it is in.
+fn in_unit(signal: &Signal, value: &Value) -> Option<f64> {
+    let number = value.to_f64()?;
+    let is_time = matches!(value, Value::Time(_)) && signal.unit.quantity == Quantity::Time;
+    Some(if is_time { number / signal.unit.to_si } else { number })
+}
+
+/// The signal whose name is spelt most like `name`, if one is spelt nearly so.
+fn similar<'m>(map: &'m SignalMap, name: &str) -> Option<&'m str> {
+    const LONGEST: usize = 80;
+    const MOST_EDITS: usize = 2;
+    if name.len() > LONGEST {
+        return None;
+    }
+    let lower = name.to_lowercase();
+    let names = map.signals().iter().map(|signal| signal.name.as_str()).filter(|name| name.len() <= LONGEST);
+    let rated = names.map(|name| (edits(&lower, &name.to_lowercase()), name));
+    rated.filter(|(edits, _)| *edits <= MOST_EDITS).min_by_key(|(edits, _)| *edits).map(|(_, name)| name)
+}
+
+/// The number of characters to insert, delete or replace between two texts (Levenshtein's distance).
+fn edits(from: &str, to: &str) -> usize {
+    if from.len().abs_diff(to.len()) > 8 {
+        return usize::MAX;
+    }
+    let mut row: Vec<usize> = (0..=to.chars().count()).collect();
+    for (i, a) in from.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b) in to.chars().enumerate() {
+            let replaced = diagonal + usize::from(a != b);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row.last().copied().unwrap_or(0)
+}

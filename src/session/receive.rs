@@ -1,1 +1,0 @@
-//! From the entries of a `SendValue` to registers and values, fault by fault.
