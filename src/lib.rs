@@ -4,6 +4,7 @@
 
 pub mod bank;
 pub mod device;
+pub mod kinematics;
 pub mod plant;
 pub mod prototype;
 pub mod session;
