@@ -155,8 +155,9 @@ pub struct InitialPart {
     pub kind: PartKind,
     /// Length, width, height in metres.
     pub size: [f64; 3],
-    /// The centre of its bottom face.
+    /// The centre of its bottom face: in the world, or, with `on`, relative to that conveyor: x along its centre line from its
+    /// start, y to the left of it, z above its surface, turned from its running direction there.
     pub pose: Pose,
-    /// The conveyor it stands on, if it stands on one.
+    /// The conveyor that its pose is relative to.
     pub on: Option<String>,
 }
