@@ -1,9 +1,13 @@
 //! `kinetwin.CartesianRobot`: three linear axes and one rotary, each on its own trapezoidal profile.
 
+use crate::device::law::profile::{Limits, Profile};
+use crate::device::law::{SAME_VALUE, STANDSTILL};
 use crate::device::table::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, FASTEST, LEAST, LENGTH, LONGEST_M, STEEPEST, VELOCITY,
     indicator, measure, number, switch, target,
 };
+use crate::device::{Device, Role, Tool};
+use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
 const SPEEDS: (f64, f64) = (LEAST, FASTEST);
@@ -52,3 +56,142 @@ pub static KIND: KindDescriptor = KindDescriptor {
         ),
     ],
 };
+
+/// The first of the four targets, in the order X, Y, Z, R.
+const TARGETS: usize = 0;
+const GRIP: usize = 4;
+const CARTESIAN_ARRIVED: usize = 5;
+/// The first of the four positions.
+const POSITIONS: usize = 6;
+
+/// A robot with its axes X, Y, Z, R.
+#[derive(Debug)]
+struct CartesianRobot {
+    axes: [Profile; 4],
+    /// How far each may be from its target and have arrived, m, m, m, rad.
+    tolerances: [f64; 4],
+    tool: Tool,
+}
+
+/// Builds one.
+pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
+    const LIMITS: [(&str, &str); 4] = [
+        ("maxVelocityX", "maxAccelerationX"),
+        ("maxVelocityY", "maxAccelerationY"),
+        ("maxVelocityZ", "maxAccelerationZ"),
+        ("maxVelocityR", "maxAccelerationR"),
+    ];
+    let axes = LIMITS.map(|(velocity, acceleration)| {
+        Profile::new(Limits { velocity: parameters.number(velocity), acceleration: parameters.number(acceleration) })
+    });
+    let way = parameters.number("arrivedTolerance");
+    let tolerances = [way, way, way, parameters.number("arrivedToleranceR")];
+    Box::new(CartesianRobot { axes, tolerances, tool: Tool::default() })
+}
+
+impl CartesianRobot {
+    /// Every axis within its tolerance of the latest target, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
+    fn arrived(&self) -> bool {
+        self.axes.iter().zip(self.tolerances).all(|(axis, tolerance)| {
+            (axis.position() - axis.target()).abs() <= tolerance + SAME_VALUE && axis.velocity().abs() < STANDSTILL
+        })
+    }
+}
+
+impl Device for CartesianRobot {
+    fn command(&mut self, port: usize, value: f64) {
+        match port {
+            TARGETS..GRIP => self.axes[port - TARGETS].retarget(value),
+            GRIP => self.tool.grip = value != 0.0,
+            _ => {}
+        }
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        // Actuator and mechanics: the axes are not synchronised.
+        for axis in &mut self.axes {
+            axis.advance(seconds);
+        }
+        let [x, y, z, rotation] = self.axes.each_ref().map(Profile::position);
+        self.tool = Tool { position: [x, y, z], rotation, grip: self.tool.grip };
+    }
+
+    fn report(&self, reports: &mut [f64]) {
+        reports[CARTESIAN_ARRIVED] = f64::from(self.arrived());
+        for (report, axis) in reports[POSITIONS..].iter_mut().zip(&self.axes) {
+            *report = axis.position();
+        }
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        for axis in &self.axes {
+            axis.state(visit);
+        }
+        visit(f64::from(self.tool.grip));
+    }
+
+    fn role(&self) -> Role<'_> {
+        Role::Moves(&self.tool)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::device::bench::Bench;
+
+    fn robot() -> Bench {
+        Bench::new("kinetwin.CartesianRobot", &[])
+    }
+
+    #[test]
+    fn it_has_arrived_at_the_start() {
+        robot().check(&[], 0.0, &[("cartesianArrived", 1.0), ("actualPosX", 0.0), ("actualPosR", 0.0)]);
+    }
+
+    #[test]
+    fn axes_are_not_synchronised() {
+        let targets = [("XTarget", 2.0), ("YTarget", -0.125), ("RTarget", 1.0)];
+        robot().check(
+            &targets,
+            0.5,
+            &[
+                ("actualPosX", 0.25),
+                ("actualPosY", -0.125),
+                ("actualPosZ", 0.0),
+                ("actualPosR", 0.75),
+                ("cartesianArrived", 0.0),
+            ],
+        );
+    }
+
+    #[test]
+    fn arrived_looks_at_the_latest_target() {
+        let mut robot = robot();
+        robot.check(&[("ZTarget", 0.5)], 0.0, &[("cartesianArrived", 0.0)]);
+        robot.check(&[], 1.0, &[("actualPosZ", 0.5), ("cartesianArrived", 1.0)]);
+        robot.check(&[("ZTarget", 0.4995)], 0.0, &[("cartesianArrived", 1.0)]);
+        robot.check(&[("ZTarget", 0.49)], 0.0, &[("cartesianArrived", 0.0)]);
+    }
+
+    #[test]
+    fn arrived_asks_for_rest() {
+        // 0.4 mm before the target the axis still brakes with 40 mm/s; 1 mm/s is left half a millisecond before the end.
+        let mut robot = robot();
+        robot.check(&[("XTarget", 0.125)], 0.48, &[("actualPosX", 0.1246), ("cartesianArrived", 0.0)]);
+        robot.check(&[], 0.0194, &[("cartesianArrived", 0.0)]);
+        robot.check(&[], 0.0002, &[("cartesianArrived", 1.0)]);
+    }
+
+    #[test]
+    fn a_target_too_near_is_passed_and_returned_to() {
+        let mut robot = robot();
+        robot.check(&[("XTarget", 2.0)], 0.5, &[("actualPosX", 0.25)]);
+        robot.check(&[("XTarget", 0.375)], 0.5, &[("actualPosX", 0.5)]);
+        robot.check(&[], 0.5, &[("actualPosX", 0.375), ("cartesianArrived", 1.0)]);
+    }
+
+    #[test]
+    fn grip_moves_nothing() {
+        robot().check(&[("grip", 1.0)], 1.0, &[("cartesianArrived", 1.0), ("actualPosZ", 0.0)]);
+    }
+}

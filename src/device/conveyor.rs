@@ -1,12 +1,27 @@
 //! What straight and curved conveyors have in common: their signals, their drive, their light barriers.
 
+use crate::device::law::drive::{Drive, DriveSettings};
+use crate::device::law::ramp::Slopes;
+use crate::device::law::sum::Sum;
+use crate::device::law::{direction, moves};
 use crate::device::table::{
     ACCELERATION, LEAST, LENGTH, LONGEST_M, LONGEST_S, STEEPEST, TIME, VELOCITY, choice, code, indicator, measure,
     number, option, state, target,
 };
+use crate::device::{Belt, BuildError, Device, Role, Surface, Surroundings, Transfer, misfit};
+use crate::plant::Parameters;
 use crate::prototype::kind::{ParameterDescriptor, PortDescriptor};
 
-/// The ports of both kinds, in the order of the constants below.
+const VELOCITY_TARGET: usize = 0;
+const MOTOR_DIRECTION: usize = 1;
+const VELOCITY_ACTUAL: usize = 2;
+const DRIVE_ENABLED: usize = 3;
+const DRIVE_RUNNING: usize = 4;
+const DIRECTIONAL_ACTUAL: usize = 5;
+const LIGHT_BARRIER_A: usize = 6;
+const LIGHT_BARRIER_B: usize = 7;
+
+/// The ports of both kinds, in the order of the constants above.
 pub(super) const PORTS: &[PortDescriptor] = &[
     target("velocityTarget", VELOCITY, "speed the belt is to run at, its sign counts"),
     code("motorDirection", -1.0, 1.0, "-1 backwards, 0 off, 1 forwards; multiplies the target"),
@@ -66,4 +81,108 @@ pub(super) const fn barrier(name: &'static str, default: &'static str) -> Parame
         default,
         "where the barrier's beam crosses the centre line, from the start of the belt; negative: there is none",
     )
+}
+
+/// A conveyor with its drive and its belt.
+#[derive(Debug)]
+pub(super) struct Conveyor {
+    velocity_target: f64,
+    motor_direction: f64,
+    drive: Drive,
+    belt: Belt,
+    /// How far the belt has moved since the start, m.
+    travel: Sum,
+    beams: [bool; 2],
+}
+
+impl Conveyor {
+    /// A conveyor with this surface, at rest and switched off.
+    pub(super) fn new(surface: Surface, parameters: &Parameters, instance: &str) -> Result<Conveyor, BuildError> {
+        let length = surface.length();
+        let barrier = |name: &'static str| {
+            let place = parameters.number(name);
+            match place {
+                p if p < 0.0 => Ok(None),
+                p if p <= length => Ok(Some(p)),
+                p => Err(misfit(instance, name, format!("stands at {p} m of a belt that is {length} m long"))),
+            }
+        };
+        let belt = Belt {
+            surface,
+            velocity: 0.0,
+            displacement: 0.0,
+            barriers: [barrier("barrierA")?, barrier("barrierB")?],
+            beam_height: parameters.number("beamHeight"),
+            transfer: if parameters.text("transfer") == "share" { Transfer::Share } else { Transfer::Most },
+        };
+        Ok(Conveyor {
+            velocity_target: 0.0,
+            motor_direction: 0.0,
+            drive: Drive::new(drive_settings(parameters)),
+            belt,
+            travel: Sum::default(),
+            beams: [false; 2],
+        })
+    }
+}
+
+/// A ramped drive's parameters: those of both conveyors and of the motor.
+pub(super) fn drive_settings(parameters: &Parameters) -> DriveSettings {
+    let rising = parameters.number("acceleration");
+    let falling = match parameters.number("deceleration") {
+        0.0 => rising,
+        slope => slope,
+    };
+    DriveSettings {
+        slopes: Slopes { rising, falling },
+        coasting: parameters.boolean("coast").then(|| parameters.number("coastDeceleration")),
+        ready_delay: parameters.number("readyDelay"),
+    }
+}
+
+impl Device for Conveyor {
+    fn command(&mut self, port: usize, value: f64) {
+        match port {
+            VELOCITY_TARGET => self.velocity_target = value,
+            MOTOR_DIRECTION => self.motor_direction = value,
+            _ => return,
+        }
+        self.drive.command(self.motor_direction != 0.0, self.motor_direction * self.velocity_target);
+    }
+
+    fn sense(&mut self, surroundings: &Surroundings) {
+        self.beams = [surroundings.barrier_a, surroundings.barrier_b];
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        // Actuator and mechanics.
+        let way = self.drive.advance(seconds);
+        // Transmission: the belt follows the drum.
+        self.belt.displacement = way;
+        self.belt.velocity = self.drive.velocity();
+        self.travel.add(way);
+    }
+
+    fn report(&self, reports: &mut [f64]) {
+        let velocity = self.drive.velocity();
+        reports[VELOCITY_ACTUAL] = velocity;
+        reports[DRIVE_ENABLED] = f64::from(self.drive.ready());
+        reports[DRIVE_RUNNING] = f64::from(moves(velocity));
+        reports[DIRECTIONAL_ACTUAL] = direction(velocity);
+        reports[LIGHT_BARRIER_A] = f64::from(self.beams[0] && self.belt.barriers[0].is_some());
+        reports[LIGHT_BARRIER_B] = f64::from(self.beams[1] && self.belt.barriers[1].is_some());
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        visit(self.velocity_target);
+        visit(self.motor_direction);
+        self.drive.state(visit);
+        visit(self.belt.displacement);
+        self.travel.state(visit);
+        self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
+    }
+
+    fn role(&self) -> Role<'_> {
+        Role::Carries(&self.belt)
+    }
 }

@@ -1,9 +1,15 @@
 //! `kinetwin.EncoderMotor`: an inverter motor with an incremental encoder.
 
+use crate::device::Device;
+use crate::device::conveyor::drive_settings;
+use crate::device::law::drive::Drive;
+use crate::device::law::encoder::Encoder;
+use crate::device::law::sum::Sum;
 use crate::device::table::{
     ANGULAR_ACCELERATION, ANGULAR_VELOCITY, LEAST, LONGEST_S, STEEPEST, TIME, counter, indicator, integer, measure,
     number, option, switch, target,
 };
+use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
 /// The kind's table.
@@ -39,3 +45,121 @@ pub static KIND: KindDescriptor = KindDescriptor {
         integer("encoderBits", (0, 31), "0", "bits of the encoder's count, from 0 up; 0: a DINT that wraps"),
     ],
 };
+
+const SPEED_TARGET: usize = 0;
+const ENABLE: usize = 1;
+const ENCODER: usize = 2;
+const SPEED_ACTUAL: usize = 3;
+const INVERTER_READY: usize = 4;
+
+/// A motor with its inverter and its encoder.
+#[derive(Debug)]
+struct EncoderMotor {
+    speed_target: f64,
+    enable: bool,
+    drive: Drive,
+    /// Angle of the shaft since the start, rad.
+    angle: Sum,
+    encoder: Encoder,
+}
+
+/// Builds one.
+pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
+    let bits = parameters.integer("encoderBits") as u32;
+    let encoder = Encoder {
+        counts_per_revolution: parameters.integer("countsPerRevolution") as f64,
+        bits: Some(bits).filter(|bits| *bits > 0),
+    };
+    let drive = Drive::new(drive_settings(parameters));
+    Box::new(EncoderMotor { speed_target: 0.0, enable: false, drive, angle: Sum::default(), encoder })
+}
+
+impl Device for EncoderMotor {
+    fn command(&mut self, port: usize, value: f64) {
+        match port {
+            SPEED_TARGET => self.speed_target = value,
+            ENABLE => self.enable = value != 0.0,
+            _ => return,
+        }
+        self.drive.command(self.enable, self.speed_target);
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        // Actuator and mechanics; the encoder sits on the shaft.
+        self.angle.add(self.drive.advance(seconds));
+    }
+
+    fn report(&self, reports: &mut [f64]) {
+        reports[ENCODER] = self.encoder.count(self.angle.value());
+        reports[SPEED_ACTUAL] = self.drive.velocity();
+        reports[INVERTER_READY] = f64::from(self.drive.ready());
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        visit(self.speed_target);
+        self.drive.state(visit);
+        self.angle.state(visit);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use crate::device::bench::Bench;
+
+    fn motor() -> Bench {
+        Bench::new("kinetwin.EncoderMotor", &[])
+    }
+
+    const RUN: [(&str, f64); 2] = [("speedTarget", 10.0), ("enable", 1.0)];
+
+    #[test]
+    fn at_rest_until_enabled() {
+        motor().check(&[("speedTarget", 10.0)], 5.0, &[("speedActual", 0.0), ("encoder", 0.0), ("inverterReady", 0.0)]);
+    }
+
+    #[test]
+    fn the_encoder_is_the_floor_of_the_angle() {
+        // 2.5 rad in the ramp's half second, 10 rad in the second after.
+        let counts = (12.5 * 4096.0 / TAU).floor();
+        motor().check(&RUN, 1.5, &[("speedActual", 10.0), ("encoder", counts)]);
+        let counts = (-12.5 * 4096.0 / TAU).floor();
+        motor().check(&[("speedTarget", -10.0), ("enable", 1.0)], 1.5, &[("speedActual", -10.0), ("encoder", counts)]);
+    }
+
+    #[test]
+    fn the_inverter_is_ready_at_once_and_the_motor_ramps_down_without() {
+        let mut motor = motor();
+        motor.check(&RUN, 0.0, &[("inverterReady", 1.0), ("speedActual", 0.0)]);
+        motor.check(&[], 1.0, &[("speedActual", 10.0)]);
+        motor.check(&[("enable", 0.0)], 0.0, &[("inverterReady", 0.0), ("speedActual", 10.0)]);
+        motor.check(&[], 0.25, &[("speedActual", 5.0)]);
+        motor.check(&[], 0.3, &[("speedActual", 0.0)]);
+    }
+
+    #[test]
+    fn there_and_back_the_encoder_is_0_again() {
+        let mut motor = motor();
+        motor.check(&RUN, 0.0, &[]);
+        for step in 0..4000 {
+            match step {
+                1500 => motor.device.command(0, -10.0),
+                3500 => motor.device.command(0, 0.0),
+                _ => {}
+            }
+            motor.device.advance(0.001);
+        }
+        motor.check(&[], 1.0, &[("encoder", 0.0), ("speedActual", 0.0)]);
+    }
+
+    #[test]
+    fn encoder_bits_wrap_and_a_ready_delay_holds_back() {
+        let bits = [("encoderBits", "12"), ("countsPerRevolution", "4096")];
+        let counts = (12.5 * 4096.0 / TAU).floor().rem_euclid(4096.0);
+        Bench::new("kinetwin.EncoderMotor", &bits).check(&RUN, 1.5, &[("encoder", counts)]);
+        let mut slow = Bench::new("kinetwin.EncoderMotor", &[("readyDelay", "0.2")]);
+        slow.check(&RUN, 0.1, &[("inverterReady", 0.0)]);
+        slow.check(&[], 0.2, &[("inverterReady", 1.0), ("speedActual", 2.0)]);
+    }
+}

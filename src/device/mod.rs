@@ -4,10 +4,13 @@
 //! move by some seconds, and asks for its reports. It may be moved by any span, not only by the engine's step: a
 //! diagnosis applies commands at their recorded instants and samples reports at theirs.
 
+#[cfg(test)]
+mod bench;
 mod cartesian_robot;
 mod conveyor;
 mod conveyor_curve;
 mod encoder_motor;
+pub mod law;
 mod loading_bay;
 mod pusher;
 mod servo_axis;
@@ -50,12 +53,33 @@ pub struct BuildError {
 /// `seed` is the run's: with the instance's name it fixes everything that is random about the device.
 pub fn build(
     kind: &KindDescriptor,
-    _parameters: &Parameters,
+    parameters: &Parameters,
     instance: &str,
-    _seed: u64,
+    seed: u64,
 ) -> Result<Box<dyn Device>, BuildError> {
-    let problem = format!("{} has no law", kind.name);
-    Err(BuildError { instance: instance.to_owned(), parameter: "kind", problem })
+    match kind.name {
+        "kinetwin.StraightConveyor" => straight_conveyor::build(parameters, instance),
+        "kinetwin.ConveyorCurve" => conveyor_curve::build(parameters, instance),
+        "kinetwin.Pusher" => pusher::build(parameters, instance),
+        "kinetwin.CartesianRobot" => Ok(cartesian_robot::build(parameters)),
+        "kinetwin.SuctionCapGripper" => suction_cap_gripper::build(parameters, instance),
+        "kinetwin.LoadingBay" => loading_bay::build(parameters, instance, seed),
+        "kinetwin.UnloadingBay" => unloading_bay::build(parameters, instance),
+        "kinetwin.ServoAxis" => servo_axis::build(parameters, instance),
+        "kinetwin.EncoderMotor" => Ok(encoder_motor::build(parameters)),
+        other => unreachable!("{other:?} stands in no table of device kinds"),
+    }
+}
+
+/// An error about one parameter of an instance.
+fn misfit(instance: &str, parameter: &'static str, problem: impl Into<String>) -> BuildError {
+    BuildError { instance: instance.to_owned(), parameter, problem: problem.into() }
+}
+
+/// A parameter that is three lengths.
+fn triple(parameters: &Parameters, name: &'static str, instance: &str) -> Result<[f64; 3], BuildError> {
+    let numbers = parameters.numbers(name);
+    numbers.try_into().map_err(|_| misfit(instance, name, format!("has {} numbers, not 3", numbers.len())))
 }
 
 /// One device.
@@ -63,7 +87,10 @@ pub fn build(
 /// Time passes only in [`advance`](Device::advance). Between two calls its commands are constant, so that a law with a
 /// closed form is computed exactly whatever the span.
 pub trait Device: Send {
-    /// Takes the value of a command port, in SI units (BOOL as 0 or 1), from now on.
+    /// Takes the value of a command port, in SI units (BOOL as 0 or 1), from now on. The value is finite; one that the
+    /// port's range excludes is refused before it comes here. Of several commands at one instant only the last of each
+    /// port counts. Until the first, a port is 0 or false, but an axis's `torqueEnabled`, which is true: whoever maps it
+    /// hands its register's value in before time passes.
     fn command(&mut self, port: usize, value: f64);
 
     /// What the world about it is like now; called after parts have moved and before [`report`](Device::report).
@@ -92,7 +119,7 @@ pub struct Surroundings {
     pub barrier_a: bool,
     /// A part cuts the beam of light barrier B.
     pub barrier_b: bool,
-    /// A part is sealed at the cups.
+    /// A part is sealed at the cups; while vacuum holds a part it stays so.
     pub sealed: bool,
 }
 
@@ -129,6 +156,16 @@ pub enum Surface {
         angle: f64,
         width: f64,
     },
+}
+
+impl Surface {
+    /// Length of the centre line, m.
+    pub fn length(&self) -> f64 {
+        match *self {
+            Surface::Straight { length, .. } => length,
+            Surface::Curve { radius, angle, .. } => radius * angle.abs(),
+        }
+    }
 }
 
 /// A conveyor's surface and how far it moved.
@@ -176,6 +213,8 @@ pub struct Plate {
 pub struct Tool {
     pub position: [f64; 3],
     pub rotation: f64,
+    /// Whether it closes the gripper mounted on it.
+    pub grip: bool,
 }
 
 /// A suction gripper's cups.

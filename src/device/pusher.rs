@@ -1,6 +1,10 @@
 //! `kinetwin.Pusher`: a plate that a cylinder moves out and back, with a switch at each end and room for two light barriers.
 
+use crate::device::law::moves;
+use crate::device::law::stroke::{Drive, Stroke, StrokeSettings};
 use crate::device::table::{FASTEST, LEAST, LENGTH, LONGEST_M, VELOCITY, code, indicator, number, numbers};
+use crate::device::{BuildError, Device, Plate, Role, Surroundings, triple};
+use crate::plant::Parameters;
 use crate::prototype::kind::{KindDescriptor, ParameterDescriptor};
 
 /// The kind's table.
@@ -41,4 +45,149 @@ const fn barrier(name: &'static str) -> ParameterDescriptor {
         "-1",
         "where the barrier's beam crosses the plate's way, from the retracted front face; negative: there is none",
     )
+}
+
+const COMMAND: usize = 0;
+const LIMIT_EXTENDED: usize = 1;
+const LIMIT_RETRACTED: usize = 2;
+const IS_RUNNING: usize = 3;
+const LIGHTBARRIER_A: usize = 4;
+const LIGHTBARRIER_B: usize = 5;
+
+/// A pusher with its plate.
+#[derive(Debug)]
+struct Pusher {
+    drive: Drive,
+    stroke: Stroke,
+    plate: Plate,
+    beams: [bool; 2],
+}
+
+/// Builds one.
+pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn Device>, BuildError> {
+    let barrier = |name| Some(parameters.number(name)).filter(|place| *place >= 0.0);
+    let plate = Plate {
+        position: 0.0,
+        displacement: 0.0,
+        size: triple(parameters, "plateSize", instance)?,
+        barriers: [barrier("barrierA"), barrier("barrierB")],
+        beam_height: parameters.number("beamHeight"),
+    };
+    let stroke = Stroke::new(StrokeSettings {
+        length: parameters.number("stroke"),
+        extend_speed: parameters.number("extendSpeed"),
+        retract_speed: parameters.number("retractSpeed"),
+        limit_tolerance: parameters.number("limitTolerance"),
+    });
+    Ok(Box::new(Pusher { drive: Drive::Hold, stroke, plate, beams: [false; 2] }))
+}
+
+impl Device for Pusher {
+    /// Codes other than 0, 1 and 2 are refused before they come here; one that comes all the same changes nothing.
+    fn command(&mut self, port: usize, value: f64) {
+        if port == COMMAND {
+            self.drive = match value {
+                0.0 => Drive::Hold,
+                1.0 => Drive::Extend,
+                2.0 => Drive::Retract,
+                _ => self.drive,
+            };
+        }
+    }
+
+    fn sense(&mut self, surroundings: &Surroundings) {
+        self.beams = [surroundings.barrier_a, surroundings.barrier_b];
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        // Actuator and mechanics; the plate sits on the rod.
+        self.plate.displacement = self.stroke.advance(self.drive, seconds);
+        self.plate.position = self.stroke.position();
+    }
+
+    fn report(&self, reports: &mut [f64]) {
+        reports[LIMIT_EXTENDED] = f64::from(self.stroke.at_extended());
+        reports[LIMIT_RETRACTED] = f64::from(self.stroke.at_retracted());
+        reports[IS_RUNNING] = f64::from(moves(self.stroke.velocity(self.drive)));
+        reports[LIGHTBARRIER_A] = f64::from(self.beams[0] && self.plate.barriers[0].is_some());
+        reports[LIGHTBARRIER_B] = f64::from(self.beams[1] && self.plate.barriers[1].is_some());
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        visit(match self.drive {
+            Drive::Hold => 0.0,
+            Drive::Extend => 1.0,
+            Drive::Retract => 2.0,
+        });
+        visit(self.stroke.position());
+        visit(self.plate.displacement);
+        self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
+    }
+
+    fn role(&self) -> Role<'_> {
+        Role::Pushes(&self.plate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::device::bench::Bench;
+
+    fn pusher() -> Bench {
+        Bench::new("kinetwin.Pusher", &[])
+    }
+
+    #[test]
+    fn it_starts_retracted_and_at_rest() {
+        pusher().check(&[], 1.0, &[("limitRetracted", 1.0), ("limitExtended", 0.0), ("isRunning", 0.0)]);
+    }
+
+    #[test]
+    fn there_is_no_ramp() {
+        pusher().check(&[("command", 1.0)], 0.0, &[("isRunning", 1.0), ("limitRetracted", 1.0)]);
+        pusher().check(&[("command", 1.0)], 0.0041, &[("isRunning", 1.0), ("limitRetracted", 0.0)]);
+    }
+
+    #[test]
+    fn running_means_the_actual_speed_not_the_command() {
+        let mut pusher = pusher();
+        pusher.check(&[("command", 1.0)], 0.99, &[("isRunning", 1.0)]);
+        pusher.check(&[], 0.02, &[("isRunning", 0.0), ("limitExtended", 1.0)]);
+        pusher.check(&[("command", 2.0)], 0.0, &[("isRunning", 1.0), ("limitExtended", 1.0)]);
+        pusher.check(&[("command", 0.0)], 0.0, &[("isRunning", 0.0)]);
+        let slow = [("extendSpeed", "0.001")];
+        Bench::new("kinetwin.Pusher", &slow).check(&[("command", 1.0)], 1.0, &[("isRunning", 0.0)]);
+    }
+
+    #[test]
+    fn limits_are_inclusive() {
+        pusher().check(&[("command", 1.0)], 0.996, &[("limitExtended", 1.0), ("isRunning", 1.0)]);
+        pusher().check(&[("command", 1.0)], 0.9959, &[("limitExtended", 0.0)]);
+        pusher().check(&[("command", 1.0)], 0.004, &[("limitRetracted", 1.0)]);
+    }
+
+    #[test]
+    fn other_codes_change_nothing() {
+        let mut pusher = pusher();
+        pusher.check(&[("command", 1.0)], 0.5, &[]);
+        pusher.check(&[("command", 3.0)], 0.6, &[("limitExtended", 1.0)]);
+    }
+
+    #[test]
+    fn hold_keeps_the_plate_where_it_is() {
+        let mut pusher = pusher();
+        pusher.check(&[("command", 1.0)], 0.5, &[]);
+        pusher.check(&[("command", 0.0)], 9.0, &[("isRunning", 0.0), ("limitExtended", 0.0), ("limitRetracted", 0.0)]);
+        pusher.check(&[("command", 2.0)], 0.497, &[("limitRetracted", 1.0), ("isRunning", 1.0)]);
+    }
+
+    #[test]
+    fn without_barriers_they_are_constant_false() {
+        let mut pusher = pusher();
+        pusher.cut(true, true);
+        pusher.check(&[], 1.0, &[("lightbarrierA", 0.0), ("lightbarrierB", 0.0)]);
+        let mut pusher = Bench::new("kinetwin.Pusher", &[("barrierA", "0.1")]);
+        pusher.cut(true, true);
+        pusher.check(&[], 1.0, &[("lightbarrierA", 1.0), ("lightbarrierB", 0.0)]);
+    }
 }

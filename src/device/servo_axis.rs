@@ -1,8 +1,12 @@
 //! `kinetwin.ServoAxis`: one axis under a servo drive, linear or rotary.
 
+use crate::device::law::servo::{HIGHEST_RATE, Loop, Mechanics, Servo};
+use crate::device::law::slope::Slope;
 use crate::device::table::{
     EFFORT, LENGTH, LONGEST_M, LONGEST_S, SPEED, TIME, TRAVEL, choice, measure, number, switch, target,
 };
+use crate::device::{BuildError, Device, misfit};
+use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 use crate::value::Quantity;
 
@@ -73,3 +77,268 @@ pub static KIND: KindDescriptor = KindDescriptor {
         number("pendulumLength", LENGTH, (0.0, LONGEST_M), "0", "length of that pendulum, to its centre of mass"),
     ],
 };
+
+const POSITION_TARGET: usize = 0;
+const VELOCITY_TARGET: usize = 1;
+const FORCE_TARGET: usize = 2;
+const TORQUE_ENABLED: usize = 3;
+const POSITION: usize = 4;
+const VELOCITY: usize = 5;
+const FORCE: usize = 6;
+
+/// What the drive follows, and with which gains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Mode {
+    /// The axis is where it is told to be.
+    Ideal,
+    /// A position loop around a speed loop.
+    Cascade { position_gain: f64, velocity_gain: f64, feedforward: f64 },
+    /// One position loop.
+    Proportional { gain: f64 },
+    /// A speed loop.
+    Velocity { gain: f64 },
+    /// No loop.
+    Force { gain: f64 },
+}
+
+/// An axis.
+#[derive(Debug)]
+struct ServoAxis {
+    mode: Mode,
+    position_target: Slope,
+    velocity_target: f64,
+    force_target: f64,
+    servo: Servo,
+}
+
+/// Builds one.
+pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn Device>, BuildError> {
+    let number = |name| parameters.number(name);
+    let mode = mode(parameters);
+    let (position_gain, velocity_gain) = match mode {
+        Mode::Cascade { position_gain, velocity_gain, .. } => (position_gain * velocity_gain, velocity_gain),
+        Mode::Proportional { gain } => (gain, 0.0),
+        Mode::Velocity { gain } => (0.0, gain),
+        Mode::Ideal | Mode::Force { .. } => (0.0, 0.0),
+    };
+    // The integrator belongs to the speed loop: there is none where there is no such loop.
+    let integral_time = Some(number("velocityIntegralTime")).filter(|time| *time > 0.0 && velocity_gain > 0.0);
+    let drive = Loop { position_gain, velocity_gain, integral_time, limit: number("forceLimit") };
+    let pendulum = number("pendulumMass") * number("pendulumLength");
+    if pendulum > 0.0 && parameters.text("motion") == "linear" {
+        return Err(misfit(instance, "pendulumMass", "is set on a linear axis: a pendulum needs motion rotary"));
+    }
+    let inertia = number("M");
+    let mechanics = Mechanics { inertia, viscous_friction: number("Fv"), load: number("load"), pendulum };
+    let servo = Servo::new(drive, mechanics);
+    if mode != Mode::Ideal && servo.rate() > HIGHEST_RATE {
+        let problem = format!(
+            "is {inertia}: with these gains and this friction the axis moves at rates up to {:.0} 1/s, more than the \
+             {HIGHEST_RATE} 1/s that are computed; raise the inertia or lower the gains",
+            servo.rate()
+        );
+        return Err(misfit(instance, "M", problem));
+    }
+    let position_target = Slope::default();
+    Ok(Box::new(ServoAxis { mode, position_target, velocity_target: 0.0, force_target: 0.0, servo }))
+}
+
+fn mode(parameters: &Parameters) -> Mode {
+    let [position_gain, velocity_gain] = ["positionGain", "velocityGain"].map(|name| parameters.number(name));
+    match (parameters.text("mode"), parameters.text("loop")) {
+        ("ideal", _) => Mode::Ideal,
+        ("velocity", _) => Mode::Velocity { gain: velocity_gain },
+        ("force", _) => Mode::Force { gain: parameters.number("forceGain") },
+        (_, "proportional") => Mode::Proportional { gain: velocity_gain },
+        _ => {
+            let feedforward = parameters.number("velocityFeedforward");
+            Mode::Cascade { position_gain, velocity_gain, feedforward }
+        }
+    }
+}
+
+impl ServoAxis {
+    /// What the commands ask of the loop: the part of its demand that does not depend on the axis.
+    fn reference(&self) -> f64 {
+        match self.mode {
+            Mode::Ideal => 0.0,
+            Mode::Cascade { position_gain, velocity_gain, feedforward } => {
+                velocity_gain
+                    * (position_gain * self.position_target.value() + feedforward * self.position_target.rate())
+            }
+            Mode::Proportional { gain } => gain * self.position_target.value(),
+            Mode::Velocity { gain } => gain * self.velocity_target,
+            Mode::Force { gain } => gain * self.force_target,
+        }
+    }
+
+    /// For how long the reference stays as it is: until the target's own speed is no longer believed in.
+    fn steady(&self) -> f64 {
+        match (self.mode, self.position_target.lasts()) {
+            (Mode::Cascade { feedforward, .. }, lasts) if feedforward != 0.0 && lasts > 0.0 => lasts,
+            _ => f64::INFINITY,
+        }
+    }
+}
+
+impl Device for ServoAxis {
+    fn command(&mut self, port: usize, value: f64) {
+        match port {
+            POSITION_TARGET => self.position_target.set(value),
+            VELOCITY_TARGET => self.velocity_target = value,
+            FORCE_TARGET => self.force_target = value,
+            TORQUE_ENABLED => self.servo.torque = value != 0.0,
+            _ => return,
+        }
+        self.servo.reference = self.reference();
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        let mut rest = seconds;
+        while rest > 0.0 {
+            let span = rest.min(self.steady());
+            // Actuator, mechanics and load are one loop.
+            if self.mode != Mode::Ideal {
+                self.servo.advance(span);
+            }
+            self.position_target.advance(span);
+            self.servo.reference = self.reference();
+            rest -= span;
+        }
+    }
+
+    fn report(&self, reports: &mut [f64]) {
+        (reports[POSITION], reports[VELOCITY], reports[FORCE]) = match self.mode {
+            Mode::Ideal => (self.position_target.value(), self.position_target.rate(), 0.0),
+            _ => (self.servo.position(), self.servo.velocity(), self.servo.force()),
+        };
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        self.position_target.state(visit);
+        visit(self.velocity_target);
+        visit(self.force_target);
+        self.servo.state(visit);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::device::bench::Bench;
+
+    fn axis(parameters: &[(&str, &str)]) -> Bench {
+        Bench::new("kinetwin.ServoAxis", parameters)
+    }
+
+    #[test]
+    fn at_rest_until_told_otherwise() {
+        axis(&[]).check(&[], 5.0, &[("position", 0.0), ("velocity", 0.0), ("force", 0.0)]);
+    }
+
+    #[test]
+    fn ideal_is_where_it_is_told_to_be_with_the_speed_of_its_targets() {
+        let mut axis = axis(&[("mode", "ideal")]);
+        axis.check(&[("positionTarget", 0.3)], 0.0, &[("position", 0.3), ("velocity", 0.0), ("force", 0.0)]);
+        axis.check(&[], 0.02, &[]);
+        axis.check(&[("positionTarget", 0.31)], 0.01, &[("position", 0.31), ("velocity", 0.5)]);
+        axis.check(&[], 0.1, &[("position", 0.31), ("velocity", 0.0)]);
+    }
+
+    #[test]
+    fn a_step_is_the_closed_form_of_the_cascade() {
+        // v' = (20 000·(0.01 − x) − 850·v) / 20: decay 21.25 1/s, 1 000 1/s².
+        let frequency = (1000.0_f64 - 21.25 * 21.25).sqrt();
+        let time = 0.1_f64;
+        let (sine, cosine) = (frequency * time).sin_cos();
+        let envelope = 0.01 * (-21.25 * time).exp();
+        let position = 0.01 - envelope * (cosine + 21.25 / frequency * sine);
+        let velocity = envelope * 1000.0 / frequency * sine;
+        let force = 800.0 * (25.0 * (0.01 - position) - velocity);
+        for spans in [1, 5, 100] {
+            let mut axis = axis(&[]);
+            axis.check(&[("positionTarget", 0.01)], 0.0, &[("force", 200.0)]);
+            for _ in 0..spans {
+                axis.device.advance(time / f64::from(spans));
+            }
+            axis.check(&[], 0.0, &[("position", position), ("velocity", velocity), ("force", force)]);
+        }
+    }
+
+    #[test]
+    fn force_is_the_command_after_clamping() {
+        axis(&[]).check(&[("positionTarget", -1.0)], 0.0, &[("force", -500.0)]);
+        // At the limit v = −10·(1 − exp(−2.5 t)).
+        let velocity = -10.0 * (1.0 - (-0.25_f64).exp());
+        axis(&[]).check(&[("positionTarget", -1.0)], 0.1, &[("force", -500.0), ("velocity", velocity)]);
+    }
+
+    #[test]
+    fn in_mode_velocity_the_reference_is_the_target() {
+        let velocity = 800.0 / 850.0 * 0.5 * (1.0 - (-42.5_f64 * 0.1).exp());
+        axis(&[("mode", "velocity")]).check(&[("velocityTarget", 0.5)], 0.1, &[("velocity", velocity)]);
+        let integral = [("mode", "velocity"), ("velocityIntegralTime", "0.05")];
+        axis(&integral).check(&[("velocityTarget", 0.5)], 5.0, &[("velocity", 0.5), ("force", 25.0)]);
+    }
+
+    #[test]
+    fn in_mode_force_the_command_times_the_gain_is_exerted() {
+        let velocity = 200.0 / 50.0 * (1.0 - (-2.5_f64).exp());
+        let parameters = [("mode", "force"), ("forceGain", "2")];
+        axis(&parameters).check(&[("forceTarget", 100.0)], 1.0, &[("velocity", velocity), ("force", 200.0)]);
+        axis(&parameters).check(&[("forceTarget", 1000.0)], 0.0, &[("force", 500.0)]);
+    }
+
+    #[test]
+    fn a_positive_load_opposes_positive_motion() {
+        let velocity = -(1.0 - (-2.5_f64).exp());
+        axis(&[("mode", "force"), ("load", "50")]).check(&[], 1.0, &[("velocity", velocity), ("force", 0.0)]);
+        // The cascade without an integrator gives way by load / (positionGain · velocityGain).
+        axis(&[("load", "50")]).check(&[], 5.0, &[("position", -0.0025), ("force", 50.0)]);
+    }
+
+    #[test]
+    fn a_pendulum_on_one_proportional_loop_hangs_where_gain_and_gravity_balance() {
+        let parameters = [
+            ("motion", "rotary"),
+            ("loop", "proportional"),
+            ("velocityGain", "2"),
+            ("M", "0.01"),
+            ("Fv", "0.1"),
+            ("forceLimit", "10"),
+            ("pendulumMass", "0.49"),
+            ("pendulumLength", "0.1"),
+        ];
+        let mut servo = axis(&parameters);
+        servo.check(&[("positionTarget", 1.0)], 0.0, &[("force", 2.0)]);
+        servo.device.advance(10.0);
+        let position = servo.report("position");
+        let balance = 2.0 * (1.0 - position) - 0.49 * 0.1 * 9.80665 * position.sin();
+        assert!(position > 0.7 && balance.abs() < 1e-9, "{position} {balance}");
+        servo.check(&[("torqueEnabled", 0.0)], 0.0, &[("force", 0.0)]);
+        servo.check(&[], 20.0, &[("position", 0.0), ("velocity", 0.0), ("force", 0.0)]);
+    }
+
+    #[test]
+    fn feedforward_takes_the_lag_out_of_a_ramp() {
+        // Behind a ramp of 0.2 m/s the cascade lags by v/kp · (1 + Fv/velocityGain); feedforward leaves the friction's.
+        for (feedforward, lag) in [("0", 0.2 / 25.0 * (1.0 + 50.0 / 800.0)), ("1", 0.2 / 25.0 * 50.0 / 800.0)] {
+            let mut axis = axis(&[("velocityFeedforward", feedforward)]);
+            for k in 1..=1000 {
+                axis.device.command(0, 0.2 * 0.002 * f64::from(k));
+                axis.device.advance(0.002);
+            }
+            // The staircase stands half a step ahead of its ramp on average.
+            let found = 0.2 * 2.0 + 0.2 * 0.001 - axis.report("position");
+            assert!((found - lag).abs() < 0.2 * 0.0011, "{found} instead of {lag}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_computed_is_refused() {
+        let pendulum = [("pendulumMass", "1"), ("pendulumLength", "1")];
+        let error = Bench::error("kinetwin.ServoAxis", &pendulum);
+        assert_eq!(error, "Device1: pendulumMass is set on a linear axis: a pendulum needs motion rotary");
+        let error = Bench::error("kinetwin.ServoAxis", &[("M", "0.001")]);
+        assert!(error.starts_with("Device1: M is 0.001: with these gains"), "{error}");
+    }
+}

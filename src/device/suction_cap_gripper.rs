@@ -1,6 +1,9 @@
 //! `kinetwin.SuctionCapGripper`: cups that hold a part by vacuum.
 
+use crate::device::law::vacuum::Vacuum;
 use crate::device::table::{LENGTH, LONGEST_M, LONGEST_S, TIME, indicator, instance, number, numbers, option, switch};
+use crate::device::{BuildError, Cups, Device, Role, Surroundings, triple};
+use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
 /// The kind's table.
@@ -28,3 +31,94 @@ pub static KIND: KindDescriptor = KindDescriptor {
         number("reach", LENGTH, (0.0, 1.0), "0.01", "how far below the rim a part's top may lie and still be sealed"),
     ],
 };
+
+const SUCTION_ON: usize = 0;
+const BLOW_ON: usize = 1;
+const VACUUM_ON: usize = 2;
+
+/// A gripper with its cups.
+#[derive(Debug)]
+struct SuctionCapGripper {
+    suction: bool,
+    blow: bool,
+    vacuum: Vacuum,
+    cups: Cups,
+}
+
+/// Builds one.
+pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn Device>, BuildError> {
+    let mut vacuum = Vacuum::new(parameters.number("buildUpTime"), parameters.number("releaseTime"));
+    let always_sealed = parameters.boolean("alwaysSealed");
+    vacuum.seal(always_sealed);
+    let offset = triple(parameters, "cupOffset", instance)?;
+    let cups = Cups { offset, reach: parameters.number("reach"), vacuum: false, always_sealed };
+    Ok(Box::new(SuctionCapGripper { suction: false, blow: false, vacuum, cups }))
+}
+
+impl Device for SuctionCapGripper {
+    fn command(&mut self, port: usize, value: f64) {
+        match port {
+            SUCTION_ON => self.suction = value != 0.0,
+            BLOW_ON => self.blow = value != 0.0,
+            _ => return,
+        }
+        self.vacuum.command(self.suction, self.blow);
+        self.cups.vacuum = self.vacuum.holds();
+    }
+
+    fn sense(&mut self, surroundings: &Surroundings) {
+        self.vacuum.seal(surroundings.sealed || self.cups.always_sealed);
+        self.cups.vacuum = self.vacuum.holds();
+    }
+
+    fn advance(&mut self, seconds: f64) {
+        self.vacuum.advance(seconds);
+        self.cups.vacuum = self.vacuum.holds();
+    }
+
+    fn report(&self, reports: &mut [f64]) {
+        reports[VACUUM_ON] = f64::from(self.cups.vacuum);
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        self.vacuum.state(visit);
+    }
+
+    fn role(&self) -> Role<'_> {
+        Role::Holds(&self.cups)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::device::bench::Bench;
+
+    #[test]
+    fn vacuum_needs_a_sealed_part_unless_one_always_is() {
+        let mut gripper = Bench::new("kinetwin.SuctionCapGripper", &[]);
+        gripper.check(&[("suctionOn", 1.0)], 1.0, &[("vacuumOn", 0.0)]);
+        gripper.seal(true);
+        gripper.check(&[], 0.149, &[("vacuumOn", 0.0)]);
+        gripper.check(&[], 0.001, &[("vacuumOn", 1.0)]);
+        gripper.seal(false);
+        gripper.check(&[], 0.0, &[("vacuumOn", 0.0)]);
+        let mut gripper = Bench::new("kinetwin.SuctionCapGripper", &[("alwaysSealed", "true")]);
+        gripper.check(&[("suctionOn", 1.0)], 0.15, &[("vacuumOn", 1.0)]);
+        gripper.seal(false);
+        gripper.check(&[], 0.0, &[("vacuumOn", 1.0)]);
+    }
+
+    #[test]
+    fn vacuum_is_lost_at_once_on_blow_off_and_later_without_suction() {
+        let mut gripper = Bench::new("kinetwin.SuctionCapGripper", &[("alwaysSealed", "true")]);
+        gripper.check(&[("suctionOn", 1.0)], 1.0, &[("vacuumOn", 1.0)]);
+        gripper.check(&[("suctionOn", 0.0)], 0.079, &[("vacuumOn", 1.0)]);
+        gripper.check(&[("suctionOn", 1.0)], 1.0, &[("vacuumOn", 1.0)]);
+        gripper.check(&[("suctionOn", 0.0)], 0.08, &[("vacuumOn", 0.0)]);
+        gripper.check(&[("suctionOn", 1.0)], 1.0, &[("vacuumOn", 1.0)]);
+        gripper.check(&[("blowOn", 1.0)], 0.0, &[("vacuumOn", 0.0)]);
+        gripper.check(&[], 1.0, &[("vacuumOn", 0.0)]);
+        gripper.check(&[("blowOn", 0.0)], 0.149, &[("vacuumOn", 0.0)]);
+        gripper.check(&[], 0.001, &[("vacuumOn", 1.0)]);
+    }
+}

@@ -1,0 +1,113 @@
+//! One device alone, for the tests of the kinds: commands and reports by the names of its ports.
+
+use std::collections::BTreeMap;
+
+use super::{Device, KINDS, Role, Surroundings, build};
+use crate::plant::{Parameter, ParameterValue, Parameters};
+use crate::prototype::kind::{KindDescriptor, ParameterDescriptor, ParameterType};
+
+/// A device alone.
+pub struct Bench {
+    kind: &'static KindDescriptor,
+    pub device: Box<dyn Device>,
+}
+
+fn find(kind: &str) -> &'static KindDescriptor {
+    KINDS.iter().find(|descriptor| descriptor.name == kind).expect(kind)
+}
+
+/// The defaults of a kind, but for what is set.
+fn parameters(kind: &'static KindDescriptor, set: &[(&str, &str)]) -> Parameters {
+    let value = |parameter: &ParameterDescriptor, text: &str| match parameter.ty {
+        ParameterType::Number { .. } => ParameterValue::Number(text.parse().expect(text)),
+        ParameterType::Integer { .. } => ParameterValue::Integer(text.parse().expect(text)),
+        ParameterType::Boolean => ParameterValue::Boolean(text.parse().expect(text)),
+        ParameterType::Numbers { .. } => {
+            ParameterValue::Numbers(text.split(';').map(|number| number.parse().expect(text)).collect())
+        }
+        ParameterType::Choice(_) | ParameterType::Text | ParameterType::Instance => {
+            ParameterValue::Text(text.to_owned())
+        }
+    };
+    for (name, _) in set {
+        assert!(kind.parameter(name).is_some(), "{} has no parameter {name}", kind.name);
+    }
+    let set: BTreeMap<_, _> = set.iter().copied().collect();
+    let one = |parameter: &'static ParameterDescriptor| {
+        let text = set.get(parameter.name).copied().unwrap_or(parameter.default);
+        (parameter.name, Parameter { value: value(parameter, text), tolerance: 0.0 })
+    };
+    Parameters(kind.parameters.iter().map(one).collect())
+}
+
+impl Bench {
+    /// A device of `kind`, its defaults but for what is set.
+    pub fn new(kind: &str, set: &[(&str, &str)]) -> Bench {
+        let kind = find(kind);
+        let device = build(kind, &parameters(kind, set), "Device1", 1).expect(kind.name);
+        Bench { kind, device }
+    }
+
+    /// What is said of parameters that do not fit together.
+    pub fn error(kind: &str, set: &[(&str, &str)]) -> String {
+        let kind = find(kind);
+        match build(kind, &parameters(kind, set), "Device1", 1) {
+            Ok(_) => panic!("{set:?} was taken"),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    /// Gives the commands, moves by `seconds`, and compares reports.
+    pub fn check(&mut self, commands: &[(&str, f64)], seconds: f64, expected: &[(&str, f64)]) {
+        for (port, value) in commands {
+            self.device.command(self.kind.port(port).expect(port), *value);
+        }
+        self.device.advance(seconds);
+        for (port, value) in expected {
+            let found = self.report(port);
+            assert!((found - value).abs() < 1e-9, "{port} is {found}, not {value}");
+        }
+    }
+
+    /// What the device reports there now.
+    pub fn report(&self, port: &str) -> f64 {
+        let mut reports = vec![f64::NAN; self.kind.ports.len()];
+        self.device.report(&mut reports);
+        reports[self.kind.port(port).expect(port)]
+    }
+
+    /// Parts cut the beams, or do not.
+    pub fn cut(&mut self, barrier_a: bool, barrier_b: bool) {
+        self.device.sense(&Surroundings { barrier_a, barrier_b, sealed: false });
+    }
+
+    /// A part is sealed at the cups, or is not.
+    pub fn seal(&mut self, sealed: bool) {
+        self.device.sense(&Surroundings { sealed, ..Surroundings::default() });
+    }
+
+    /// How far its belt moved in the last span.
+    pub fn displacement(&self) -> f64 {
+        match self.device.role() {
+            Role::Carries(belt) => belt.displacement,
+            other => panic!("not a belt, but {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn every_kind_stands_still_and_reports_every_port_it_has() {
+    for kind in KINDS {
+        let set: &[_] = if kind.parameter("belt").is_some() { &[("belt", "Belt")] } else { &[] };
+        let mut bench = Bench::new(kind.name, set);
+        let all = |bench: &Bench| kind.ports.iter().map(|port| bench.report(port.name)).collect::<Vec<_>>();
+        let before = all(&bench);
+        bench.device.advance(3.0);
+        bench.device.sense(&Surroundings::default());
+        for (port, (before, after)) in kind.ports.iter().zip(before.iter().zip(all(&bench))) {
+            let reported = port.direction == crate::signal_map::Direction::Report;
+            assert_eq!(reported, before.is_finite(), "{} {}", kind.name, port.name);
+            assert!(!reported || *before == after, "{} {} moves by itself", kind.name, port.name);
+        }
+    }
+}

@@ -1,0 +1,468 @@
+//! An axis under a servo drive: the drive's loop, and the mass it moves against friction and load.
+//!
+//! With command and limits constant this is
+//!
+//! ```text
+//! demand = r − gx·x − gv·v + i            r, gx, gv: from the mode and its gains; i: the integrator
+//! F      = demand, kept within ±limit     (0 while torque is off)
+//! di/dt  = (F − i) / Ti                   where there is an integrator
+//! M·dv/dt = F − Fv·v − load − m·g·l·sin(x)
+//! dx/dt  = v
+//! ```
+//!
+//! The integrator is written as automatic reset: inside the limits F − i is the loop's proportional part and i its usual
+//! integral; at a limit i tends to the limit with the same time constant and cannot wind up (K. J. Åström, T. Hägglund,
+//! Advanced PID Control, ISA 2006, section 3.5).
+//!
+//! The motion is computed by its Taylor series from one change of regime (a limit taken or left) to the next, so that it
+//! is exact whatever the span: see [`super::taylor`].
+
+use super::taylor::Series;
+
+/// Standard gravity, m/s² (3rd CGPM, 1901).
+const GRAVITY: f64 = 9.80665;
+
+/// The steps a motion is computed in, as a multiple of 1 / ρ, where ρ bounds its rates: what [`Series::ORDER`] is good for.
+const LINEAR_STEP: f64 = 2.0;
+/// The same with a pendulum, whose series converges only near the start of the step.
+const PENDULUM_STEP: f64 = 0.25;
+/// How many changes of regime a single span may hold. A motion that touches a limit for an instant may ask for more by
+/// rounding alone; what is then left of the span is computed in the regime it has.
+const MOST_CHANGES: u32 = 64;
+/// The highest rate ρ a drive may have, 1/s: hundred times that of the fastest servo drives' speed loops.
+pub const HIGHEST_RATE: f64 = 1e5;
+
+/// What the drive's demand is made of: `reference − position_gain·x − velocity_gain·v + integral`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loop {
+    pub position_gain: f64,
+    pub velocity_gain: f64,
+    /// Reset time of the integrator, s; `None` where there is none.
+    pub integral_time: Option<f64>,
+    /// Greatest force either way, N or N·m.
+    pub limit: f64,
+}
+
+/// What the drive moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mechanics {
+    /// kg or kg·m².
+    pub inertia: f64,
+    /// N·s/m or N·m·s/rad.
+    pub viscous_friction: f64,
+    /// Opposes positive motion if positive, N or N·m.
+    pub load: f64,
+    /// Mass (kg) times length (m) of a pendulum, 0 where there is none.
+    pub pendulum: f64,
+}
+
+/// An axis with its drive, at rest at 0 to begin with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Servo {
+    drive: Loop,
+    mechanics: Mechanics,
+    /// The part of the demand that is constant over a span.
+    pub reference: f64,
+    /// Whether the drive may exert a force at all.
+    pub torque: bool,
+    position: f64,
+    velocity: f64,
+    integral: f64,
+}
+
+/// Which force the drive exerts over a stretch of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Regime {
+    /// What the loop demands.
+    Free,
+    /// Its upper limit.
+    Upper,
+    /// Its lower limit.
+    Lower,
+    /// None.
+    Off,
+}
+
+/// The motion over a stretch of time.
+struct Motion {
+    position: Series,
+    velocity: Series,
+    integral: Series,
+    demand: Series,
+}
+
+impl Servo {
+    /// An axis at rest at 0, torque on.
+    pub fn new(drive: Loop, mechanics: Mechanics) -> Servo {
+        Servo { drive, mechanics, reference: 0.0, torque: true, position: 0.0, velocity: 0.0, integral: 0.0 }
+    }
+
+    /// Present position, m or rad.
+    pub fn position(&self) -> f64 {
+        self.position
+    }
+
+    /// Present velocity, m/s or rad/s.
+    pub fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
+    /// What the drive exerts now, after its limit; N or N·m.
+    pub fn force(&self) -> f64 {
+        if self.torque { self.demand().clamp(-self.drive.limit, self.drive.limit) } else { 0.0 }
+    }
+
+    /// What the loop asks for now, before the limit.
+    fn demand(&self) -> f64 {
+        let Loop { position_gain, velocity_gain, .. } = self.drive;
+        self.reference - position_gain * self.position - velocity_gain * self.velocity + self.integral
+    }
+
+    /// A bound of the rates at which loop and mechanics can move, 1/s: sum of the geometric means of each coupling and
+    /// its way back (a norm of the system's matrix in the scaling that makes it least).
+    pub fn rate(&self) -> f64 {
+        let Loop { position_gain, velocity_gain, integral_time, .. } = self.drive;
+        let Mechanics { inertia, viscous_friction, pendulum, .. } = self.mechanics;
+        let stiffness = position_gain + pendulum * GRAVITY;
+        let reset = integral_time.map_or(0.0, |time| {
+            1.0 / time + (velocity_gain / (inertia * time)).sqrt() + (position_gain / (inertia * time)).cbrt()
+        });
+        (stiffness / inertia).sqrt() + (velocity_gain + viscous_friction) / inertia + reset
+    }
+
+    /// Moves by `seconds`.
+    pub fn advance(&mut self, seconds: f64) {
+        let mut rest = seconds;
+        let mut changes = 0;
+        while rest > 0.0 {
+            let regime = self.regime();
+            let motion = self.motion(regime);
+            let step = rest.min(self.longest_step(motion.velocity.0[1]));
+            let change = if changes < MOST_CHANGES { self.change(regime, &motion, step) } else { None };
+            changes += u32::from(change.is_some());
+            let taken = change.unwrap_or(step);
+            self.position = motion.position.at(taken);
+            self.velocity = motion.velocity.at(taken);
+            self.integral = motion.integral.at(taken);
+            rest -= taken;
+        }
+    }
+
+    /// How far the series of a motion that starts with `acceleration` is good for, s.
+    fn longest_step(&self, acceleration: f64) -> f64 {
+        if self.mechanics.pendulum > 0.0 {
+            PENDULUM_STEP / (self.rate() + self.velocity.abs() + acceleration.abs().sqrt())
+        } else {
+            LINEAR_STEP / self.rate().max(f64::MIN_POSITIVE)
+        }
+    }
+
+    /// The regime that the present state is in or is about to enter.
+    fn regime(&self) -> Regime {
+        if !self.torque {
+            return Regime::Off;
+        }
+        let demand = self.demand();
+        let rounding = 1e-9 * self.drive.limit;
+        let excess = demand.abs() - self.drive.limit;
+        // On a limit the way the demand moves decides; the force is the same on both sides.
+        let beyond = if excess.abs() <= rounding { self.demand_rate() * demand > 0.0 } else { excess > 0.0 };
+        match (beyond, demand > 0.0) {
+            (false, _) => Regime::Free,
+            (true, true) => Regime::Upper,
+            (true, false) => Regime::Lower,
+        }
+    }
+
+    /// How fast the demand changes now.
+    fn demand_rate(&self) -> f64 {
+        let force = self.force();
+        let reset = self.drive.integral_time.map_or(0.0, |time| (force - self.integral) / time);
+        let acceleration = (force - self.resistance()) / self.mechanics.inertia;
+        reset - self.drive.position_gain * self.velocity - self.drive.velocity_gain * acceleration
+    }
+
+    /// Friction and load now.
+    fn resistance(&self) -> f64 {
+        let Mechanics { viscous_friction, load, pendulum, .. } = self.mechanics;
+        viscous_friction * self.velocity + load + pendulum * GRAVITY * self.position.sin()
+    }
+
+    /// When within `step` the motion leaves its regime.
+    fn change(&self, regime: Regime, motion: &Motion, step: f64) -> Option<f64> {
+        let limit = self.drive.limit;
+        match regime {
+            Regime::Off => None,
+            Regime::Upper => motion.demand.crossing(limit, false, step),
+            Regime::Lower => motion.demand.crossing(-limit, true, step),
+            Regime::Free => {
+                let upper = motion.demand.crossing(limit, true, step);
+                let lower = motion.demand.crossing(-limit, false, upper.unwrap_or(step));
+                lower.or(upper)
+            }
+        }
+    }
+
+    /// The motion from here on in `regime`, by the recurrences of its equations' coefficients.
+    fn motion(&self, regime: Regime) -> Motion {
+        let Loop { position_gain, velocity_gain, integral_time, limit } = self.drive;
+        let Mechanics { inertia, viscous_friction, load, pendulum } = self.mechanics;
+        let (mut x, mut v, mut i) = ([0.0; Series::ORDER + 1], [0.0; Series::ORDER + 1], [0.0; Series::ORDER + 1]);
+        let mut demand = Series::ZERO;
+        let mut weight = Pendulum::new(pendulum * GRAVITY, self.position);
+        (x[0], v[0], i[0]) = (self.position, self.velocity, if self.torque { self.integral } else { 0.0 });
+        let (mut reference, mut constant_load) = (self.reference, load);
+        let mut constant_force = match regime {
+            Regime::Free | Regime::Off => 0.0,
+            Regime::Upper => limit,
+            Regime::Lower => -limit,
+        };
+        for k in 0..=Series::ORDER {
+            demand.0[k] = reference - position_gain * x[k] - velocity_gain * v[k] + i[k];
+            if k == Series::ORDER {
+                break;
+            }
+            let force = if regime == Regime::Free { demand.0[k] } else { constant_force };
+            let resistance = viscous_friction * v[k] + constant_load + weight.coefficient(k);
+            let next = (k + 1) as f64;
+            x[k + 1] = v[k] / next;
+            v[k + 1] = (force - resistance) / (inertia * next);
+            if let (Some(time), true) = (integral_time, self.torque) {
+                i[k + 1] = (force - i[k]) / (time * next);
+            }
+            weight.extend(k, &x);
+            (reference, constant_load, constant_force) = (0.0, 0.0, 0.0);
+        }
+        Motion { position: Series(x), velocity: Series(v), integral: Series(i), demand }
+    }
+
+    /// Its numbers, for a state's hash.
+    pub fn state(&self, visit: &mut dyn FnMut(f64)) {
+        visit(self.reference);
+        visit(f64::from(u8::from(self.torque)));
+        visit(self.position);
+        visit(self.velocity);
+        visit(self.integral);
+    }
+}
+
+/// The coefficients of weight·sin(x) along a motion: s' = c·x', c' = −s·x'.
+struct Pendulum {
+    weight: f64,
+    sine: [f64; Series::ORDER + 1],
+    cosine: [f64; Series::ORDER + 1],
+}
+
+impl Pendulum {
+    fn new(weight: f64, position: f64) -> Pendulum {
+        let mut pendulum = Pendulum { weight, sine: [0.0; Series::ORDER + 1], cosine: [0.0; Series::ORDER + 1] };
+        if weight > 0.0 {
+            (pendulum.sine[0], pendulum.cosine[0]) = position.sin_cos();
+        }
+        pendulum
+    }
+
+    fn coefficient(&self, k: usize) -> f64 {
+        self.weight * self.sine[k]
+    }
+
+    /// Coefficient k + 1 of sine and cosine, from those up to k and the position's up to k + 1.
+    fn extend(&mut self, k: usize, position: &[f64; Series::ORDER + 1]) {
+        if self.weight == 0.0 {
+            return;
+        }
+        let (mut sine, mut cosine) = (0.0, 0.0);
+        for j in 0..=k {
+            let rate = (j + 1) as f64 * position[j + 1];
+            sine += rate * self.cosine[k - j];
+            cosine -= rate * self.sine[k - j];
+        }
+        (self.sine[k + 1], self.cosine[k + 1]) = (sine / (k + 1) as f64, cosine / (k + 1) as f64);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The axis of the rig: 25 1/s and 800 N·s/m, 20 kg, 50 N·s/m.
+    fn rig(limit: f64) -> Servo {
+        let drive = Loop { position_gain: 25.0 * 800.0, velocity_gain: 800.0, integral_time: None, limit };
+        Servo::new(drive, Mechanics { inertia: 20.0, viscous_friction: 50.0, load: 0.0, pendulum: 0.0 })
+    }
+
+    fn check(found: f64, expected: f64, tolerance: f64) {
+        assert!((found - expected).abs() <= tolerance, "{found} instead of {expected}");
+    }
+
+    /// The same motion by a method of its own: classical Runge-Kutta in steps so short that a limit taken within one
+    /// does not matter.
+    fn by_runge_kutta(servo: &Servo, seconds: f64, steps: u32) -> (f64, f64, f64) {
+        let slope = |(x, v, i): (f64, f64, f64)| {
+            let demand = servo.reference - servo.drive.position_gain * x - servo.drive.velocity_gain * v + i;
+            let force = if servo.torque { demand.clamp(-servo.drive.limit, servo.drive.limit) } else { 0.0 };
+            let Mechanics { inertia, viscous_friction, load, pendulum } = servo.mechanics;
+            let resistance = viscous_friction * v + load + pendulum * GRAVITY * x.sin();
+            let reset = servo.drive.integral_time.map_or(0.0, |time| (force - i) / time);
+            (v, (force - resistance) / inertia, reset)
+        };
+        let add = |a: (f64, f64, f64), b: (f64, f64, f64), h: f64| (a.0 + h * b.0, a.1 + h * b.1, a.2 + h * b.2);
+        let mut state = (servo.position, servo.velocity, servo.integral);
+        let h = seconds / f64::from(steps);
+        for _ in 0..steps {
+            let k1 = slope(state);
+            let k2 = slope(add(state, k1, h / 2.0));
+            let k3 = slope(add(state, k2, h / 2.0));
+            let k4 = slope(add(state, k3, h));
+            for (k, weight) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
+                state = add(state, k, h * weight / 6.0);
+            }
+        }
+        state
+    }
+
+    #[test]
+    fn a_step_is_the_closed_form_of_the_second_order_whatever_the_span() {
+        for span in [0.001, 0.02, 0.0137] {
+            let mut axis = rig(1e9);
+            axis.reference = 20_000.0 * 0.01;
+            let (stiffness, damping) = (1000.0_f64, 42.5_f64);
+            let decay = damping / 2.0;
+            let frequency = (stiffness - decay * decay).sqrt();
+            for step in 1..=(0.5 / span) as u32 {
+                axis.advance(span);
+                let time = span * f64::from(step);
+                let (sine, cosine) = (frequency * time).sin_cos();
+                let envelope = 0.01 * (-decay * time).exp();
+                check(axis.position(), 0.01 - envelope * (cosine + decay / frequency * sine), 1e-15);
+                check(axis.velocity(), envelope * stiffness / frequency * sine, 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn at_its_limit_it_is_the_closed_form_of_the_first_order() {
+        let mut axis = rig(500.0);
+        axis.reference = 20_000.0 * 10.0;
+        for step in 1..=40 {
+            axis.advance(0.02);
+            let time = 0.02 * f64::from(step);
+            let decay = (-2.5 * time).exp();
+            check(axis.velocity(), 10.0 * (1.0 - decay), 1e-12);
+            check(axis.position(), 10.0 * time - 4.0 * (1.0 - decay), 1e-12);
+            check(axis.force(), 500.0, 0.0);
+        }
+    }
+
+    #[test]
+    fn a_limit_is_left_at_its_very_instant() {
+        // Until 800·(25·(0.08 − x) − v) falls to 500 the axis accelerates at its limit; both spans cross it.
+        let mut fine = rig(500.0);
+        let mut coarse = rig(500.0);
+        fine.reference = 20_000.0 * 0.08;
+        coarse.reference = fine.reference;
+        for _ in 0..500 {
+            fine.advance(0.001);
+        }
+        coarse.advance(0.5);
+        let (x, v, _) = by_runge_kutta(
+            &{
+                let mut start = rig(500.0);
+                start.reference = 20_000.0 * 0.08;
+                start
+            },
+            0.5,
+            500_000,
+        );
+        for axis in [fine, coarse] {
+            check(axis.position(), x, 1e-9);
+            check(axis.velocity(), v, 1e-8);
+        }
+        check(fine.position(), coarse.position(), 1e-14);
+    }
+
+    #[test]
+    fn an_integrator_holds_a_load_and_does_not_wind_up() {
+        let mut axis = rig(500.0);
+        axis.drive.integral_time = Some(0.05);
+        axis.mechanics.load = 300.0;
+        axis.advance(3.0);
+        check(axis.position(), 0.0, 1e-9);
+        check(axis.force(), 300.0, 1e-6);
+        // A long way at the limit: with a wound-up integrator it would shoot far past the target.
+        axis.reference = 20_000.0 * 1.0;
+        let mut highest = 0.0_f64;
+        for _ in 0..5000 {
+            axis.advance(0.001);
+            highest = highest.max(axis.position());
+        }
+        check(axis.position(), 1.0, 1e-6);
+        assert!(highest < 1.05, "{highest}");
+    }
+
+    #[test]
+    fn a_pendulum_keeps_its_energy_and_falls_freely_without_torque() {
+        let drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: 1.0 };
+        let pendulum = Mechanics { inertia: 0.0049, viscous_friction: 0.0, load: 0.0, pendulum: 0.049 };
+        let mut servo = Servo::new(drive, pendulum);
+        (servo.torque, servo.position) = (false, 3.0);
+        let energy = |servo: &Servo| 0.5 * 0.0049 * servo.velocity.powi(2) - 0.049 * GRAVITY * servo.position.cos();
+        let start = energy(&servo);
+        for _ in 0..5000 {
+            servo.advance(0.005);
+            check(energy(&servo), start, 1e-11);
+        }
+        // Small swings: period 2π·sqrt(l / g), corrected for their amplitude by 1 + θ²/16.
+        (servo.position, servo.velocity) = (0.001, 0.0);
+        let period = std::f64::consts::TAU * (0.1 / GRAVITY).sqrt() * (1.0 + 1e-6 / 16.0);
+        servo.advance(period);
+        check(servo.position, 0.001, 1e-13);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn it_is_the_solution_of_its_equations(
+            reference in -5000.0..5000.0_f64, position in -0.3..0.3_f64, velocity in -1.0..1.0_f64,
+            limit in 1.0..600.0_f64, load in -100.0..100.0_f64, reset in prop::option::of(0.02..1.0_f64),
+            pendulum in prop::option::of(0.1..20.0_f64), torque in prop::bool::weighted(0.9),
+        ) {
+            let mut axis = rig(limit);
+            axis.drive.integral_time = reset;
+            axis.mechanics.load = load;
+            axis.mechanics.pendulum = pendulum.unwrap_or(0.0);
+            (axis.reference, axis.position, axis.velocity, axis.torque) = (reference, position, velocity, torque);
+            let (x, v, i) = by_runge_kutta(&axis, 0.5, 50_000);
+            axis.advance(0.5);
+            // What the reference loses in the steps in which a limit is taken.
+            prop_assert!((axis.position - x).abs() < 1e-6, "{} {x}", axis.position);
+            prop_assert!((axis.velocity - v).abs() < 1e-5, "{} {v}", axis.velocity);
+            if torque {
+                prop_assert!((axis.integral - i).abs() < 1e-2, "{} {i}", axis.integral);
+            }
+        }
+
+        #[test]
+        fn splitting_a_span_changes_nothing(
+            reference in -5000.0..5000.0_f64, position in -0.3..0.3_f64, velocity in -1.0..1.0_f64,
+            limit in 0.0..600.0_f64, reset in prop::option::of(0.02..1.0_f64), pendulum in prop::option::of(0.1..20.0_f64),
+            parts in 2..200_u32,
+        ) {
+            let mut axis = rig(limit);
+            axis.drive.integral_time = reset;
+            axis.mechanics.pendulum = pendulum.unwrap_or(0.0);
+            (axis.reference, axis.position, axis.velocity) = (reference, position, velocity);
+            let mut split = axis;
+            axis.advance(0.5);
+            for _ in 0..parts {
+                split.advance(0.5 / f64::from(parts));
+            }
+            prop_assert!((axis.position - split.position).abs() < 1e-9);
+            prop_assert!((axis.velocity - split.velocity).abs() < 1e-9);
+            prop_assert!((axis.integral - split.integral).abs() < 1e-6);
+        }
+    }
+}
