@@ -2,9 +2,11 @@
 //! virtual commissioning of IEC 61499 automations, fed over the CPS-Protocol.
 #![deny(unsafe_code)]
 
+pub mod adapter;
 pub mod bank;
 pub mod device;
 pub mod kinematics;
+pub mod pace;
 pub mod plant;
 pub mod prototype;
 pub mod session;

@@ -1,0 +1,194 @@
+//! From the register bank to messages: every edge at once and in order, levels when they are due.
+
+use crate::bank::{Changes, IoSide, Overrun};
+use crate::signal_map::{RateClass, RegisterId};
+use crate::time::Instant;
+use crate::value::Value;
+
+/// One message's worth of reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report<'a> {
+    /// The simulated time of the step that produced them.
+    pub at: Instant,
+    pub values: &'a [(RegisterId, Value)],
+    /// Whether the session wants it; if not, it is for the record alone.
+    pub wanted: bool,
+}
+
+/// Which levels are due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Due {
+    pub high: bool,
+    pub low: bool,
+}
+
+/// What the session has been told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Told {
+    /// No session stands.
+    #[default]
+    Nothing,
+    /// A session stands, and must first hear all present values.
+    AllDue,
+    /// It hears of changes.
+    Changes,
+}
+
+/// Turns what the simulation published into messages.
+#[derive(Debug, Default)]
+pub struct Outbox {
+    told: Told,
+    /// Whether the record has its first line, which carries all signals.
+    begun: bool,
+    groups: Vec<Changes>,
+    values: Vec<(RegisterId, Value)>,
+}
+
+impl Outbox {
+    /// A session stands: the next message holds all present values.
+    pub fn start(&mut self) {
+        self.told = Told::AllDue;
+    }
+
+    /// No session stands.
+    pub fn stop(&mut self) {
+        self.told = Told::Nothing;
+    }
+
+    /// Gives to `emit` all edges since the last call, one message for each step, and the levels that are `due`; in the
+    /// order of time. Levels of a step whose edges stand in the last message join it: they changed together.
+    ///
+    /// # Errors
+    /// Edges were lost; those before the hole were given to `emit`. Go on with a new session.
+    pub fn collect(&mut self, bank: &mut IoSide, due: Due, mut emit: impl FnMut(Report<'_>)) -> Result<(), Overrun> {
+        let cycle = bank.changed(&mut self.groups);
+        let all_due = self.told == Told::AllDue && matches!(cycle, Ok(Some(_)));
+        self.values.clear();
+        if cycle.is_ok() && (due.high || all_due) {
+            bank.levels(RateClass::HighFrequency, &mut self.values);
+        }
+        if cycle.is_ok() && (due.low || all_due) {
+            bank.levels(RateClass::LowFrequency, &mut self.values);
+        }
+        let wanted = self.told == Told::Changes;
+        let mut groups = self.groups.drain(..).peekable();
+        while let Some(mut group) = groups.next() {
+            if groups.peek().is_none() && cycle == Ok(Some(group.at)) {
+                group.values.append(&mut self.values);
+            }
+            emit(Report { at: group.at, values: &group.values, wanted });
+        }
+        drop(groups);
+        let Some(at) = cycle? else { return Ok(()) };
+        if all_due || !self.begun {
+            // What changed up to this cycle has been recorded above; the session learns of it here.
+            self.values.clear();
+            self.values.extend(bank.snapshot().iter().flat_map(|snapshot| snapshot.iter()));
+            self.begun = true;
+        }
+        if all_due {
+            self.told = Told::Changes;
+        }
+        if !self.values.is_empty() {
+            emit(Report { at, values: &self.values, wanted: wanted || all_due });
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bank::{self, SimulationSide};
+    use crate::signal_map::{Direction, Kind, Signal, SignalMap};
+    use crate::value::{ElementaryType, SignalType, Unit};
+
+    fn signal(name: &str, element: ElementaryType, kind: Kind, rate: RateClass) -> Signal {
+        Signal {
+            name: name.to_owned(),
+            ty: SignalType::scalar(element),
+            direction: Direction::Report,
+            kind,
+            rate,
+            unit: Unit::ONE,
+            min: None,
+            max: None,
+            instance: "Belt".to_owned(),
+            task: "Drive".to_owned(),
+            property: name.to_owned(),
+        }
+    }
+
+    /// An edge (register 0), a high-frequency level (1) and a low-frequency level (2).
+    fn bench() -> (SimulationSide, IoSide, Outbox) {
+        let map = SignalMap::new(
+            "test",
+            vec![
+                signal("barrier", ElementaryType::Bool, Kind::Edge, RateClass::HighFrequency),
+                signal("speed", ElementaryType::Real, Kind::Level, RateClass::HighFrequency),
+                signal("count", ElementaryType::Dint, Kind::Level, RateClass::LowFrequency),
+            ],
+        );
+        let (simulation, io) = bank::new(&map.expect("three names"));
+        (simulation, io, Outbox::default())
+    }
+
+    fn publish(simulation: &mut SimulationSide, ms: i64, barrier: bool, speed: f32, count: i32) {
+        let now = Instant::from_nanos(ms * 1_000_000);
+        simulation.publish(now, &[Value::Bool(barrier), Value::Real(speed), Value::Dint(count)]);
+    }
+
+    /// What the outbox gives, as `ms: register=value …`, with a `-` in front of what no session wants.
+    fn check(outbox: &mut Outbox, io: &mut IoSide, (high, low): (bool, bool), expect: &[&str]) {
+        let mut given = Vec::new();
+        let collected = outbox.collect(io, Due { high, low }, |report| {
+            let values: Vec<String> = report.values.iter().map(|(id, value)| format!("{}={value}", id.0)).collect();
+            let sign = if report.wanted { "" } else { "-" };
+            given.push(format!("{sign}{}: {}", report.at.nanos() / 1_000_000, values.join(" ")));
+        });
+        assert_eq!(collected, Ok(()));
+        assert_eq!(given, expect);
+    }
+
+    #[test]
+    fn a_session_begins_with_all_present_values_and_goes_on_with_changes() {
+        let (mut simulation, mut io, mut outbox) = bench();
+        outbox.start();
+        check(&mut outbox, &mut io, (true, true), &[]);
+        publish(&mut simulation, 0, false, 0.0, 0);
+        check(&mut outbox, &mut io, (false, false), &["0: 0=false 1=0 2=0"]);
+        check(&mut outbox, &mut io, (true, true), &[]);
+        publish(&mut simulation, 1, true, 0.5, 1);
+        check(&mut outbox, &mut io, (false, false), &["1: 0=true"]);
+        check(&mut outbox, &mut io, (true, false), &["1: 1=0.5"]);
+        check(&mut outbox, &mut io, (true, true), &["1: 2=1"]);
+    }
+
+    #[test]
+    fn a_flash_within_an_interval_is_two_messages_and_levels_join_the_last() {
+        let (mut simulation, mut io, mut outbox) = bench();
+        outbox.start();
+        publish(&mut simulation, 0, false, 0.0, 0);
+        check(&mut outbox, &mut io, (true, true), &["0: 0=false 1=0 2=0"]);
+        publish(&mut simulation, 1, true, 0.1, 0);
+        publish(&mut simulation, 2, false, 0.2, 0);
+        check(&mut outbox, &mut io, (true, true), &["1: 0=true", "2: 0=false 1=0.2"]);
+    }
+
+    #[test]
+    fn without_a_session_all_is_for_the_record() {
+        let (mut simulation, mut io, mut outbox) = bench();
+        publish(&mut simulation, 0, false, 0.0, 0);
+        check(&mut outbox, &mut io, (true, false), &["-0: 0=false 1=0 2=0"]);
+        publish(&mut simulation, 1, true, 0.1, 0);
+        publish(&mut simulation, 2, true, 0.2, 7);
+        check(&mut outbox, &mut io, (true, false), &["-1: 0=true", "-2: 1=0.2"]);
+        outbox.start();
+        check(&mut outbox, &mut io, (false, false), &["2: 0=true 1=0.2 2=7"]);
+        // What the first message held is not said again.
+        check(&mut outbox, &mut io, (true, true), &[]);
+        outbox.stop();
+        publish(&mut simulation, 3, false, 0.2, 7);
+        check(&mut outbox, &mut io, (true, true), &["-3: 0=false"]);
+    }
+}

@@ -1,0 +1,68 @@
+//! How a connector is set up.
+
+use std::time::Duration;
+
+use super::Endpoint;
+
+/// The settings of a connector: those of the reference (host, port, timeout, signals map; section 5.3.2.3) and ours.
+///
+/// The signals map is handed to [`init`](super::Adapter::init), read.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Host and port of the automation; not looked at by a connector within the process.
+    pub endpoint: Endpoint,
+    /// How long a connection may take to open, and an answer to come.
+    pub timeout: Duration,
+    /// The longest message that is taken in, bytes.
+    pub max_message: usize,
+    /// Who connects: the same for all connections of one run, unique across runs.
+    pub id: String,
+    /// Sent as `Authorization: Bearer …` with the WebSocket handshake.
+    pub token: Option<String>,
+}
+
+impl Settings {
+    /// The longest message that is taken in where nobody says otherwise: 1 MiB.
+    pub const MAX_MESSAGE: usize = 1 << 20;
+
+    /// Settings for `endpoint` under the name `id`, with the protocol's limits.
+    pub fn new(endpoint: Endpoint, id: impl Into<String>) -> Settings {
+        let timeout = Duration::from_secs(5);
+        Settings { endpoint, timeout, max_message: Settings::MAX_MESSAGE, id: id.into(), token: None }
+    }
+}
+
+/// Settings that cannot work.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SettingsError {
+    #[error("a timeout of zero leaves no time for any answer: expected a duration as 5s")]
+    NoTimeout,
+    #[error(
+        "the longest message would be {found} bytes: expected at least {}, room for one value with its name",
+        Settings::LEAST_MESSAGE
+    )]
+    MessageTooShort { found: usize },
+    #[error("the token holds a character that cannot stand in an HTTP header: expected visible ASCII characters")]
+    Token,
+}
+
+impl Settings {
+    /// The least that `max_message` may be, bytes: room for one value with its name.
+    pub const LEAST_MESSAGE: usize = 1024;
+
+    /// Refuses settings that cannot work.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        if self.timeout.is_zero() {
+            return Err(SettingsError::NoTimeout);
+        }
+        if self.max_message < Settings::LEAST_MESSAGE {
+            return Err(SettingsError::MessageTooShort { found: self.max_message });
+        }
+        match &self.token {
+            Some(token) if token.is_empty() || !token.bytes().all(|b| b.is_ascii_graphic()) => {
+                Err(SettingsError::Token)
+            }
+            _ => Ok(()),
+        }
+    }
+}
