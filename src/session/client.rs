@@ -46,7 +46,7 @@ impl ClientSettings {
 pub enum ClientEvent {
     /// Open a connection to the server, and hand in [`Input::Opened`] or [`Input::Closed`].
     Dial {
-        /// 1 for the first try since the run began or since a session stood.
+        /// 1 for the first try since the run began or since a session stood; asking again after a 4xx counts as one.
         attempt: u32,
     },
     /// The server accepted. The owner now sends the present value of every report, in one [`Client::send`].
@@ -112,8 +112,10 @@ pub struct Client {
     id: String,
     exchange: Exchange,
     state: State,
-    /// Tries that failed since the run began or since a session stood.
-    failures: u32,
+    /// Pauses since the run began or since a session stood; each is longer than the one before.
+    pauses: u32,
+    /// Tries since the run began or since a session stood.
+    tries: u32,
     outbox: Outbox<ClientEvent>,
 }
 
@@ -154,7 +156,8 @@ impl Client {
             settings,
             exchange: Exchange::new(map, Direction::Report),
             state: State::Dialling { deadline: None },
-            failures: 0,
+            pauses: 0,
+            tries: 1,
             outbox,
         }
     }
@@ -256,9 +259,12 @@ impl Client {
                 let timeout = format_duration(self.settings.timeout);
                 self.hang_up(now, close_code::POLICY, format!("no valid answer to Connect within {timeout}"));
             }
-            State::Paused { until, connected: true } if until <= now => self.introduce(now),
-            State::Paused { until, connected: false } if until <= now => {
-                self.outbox.event(ClientEvent::Dial { attempt: self.failures + 1 });
+            State::Paused { until, connected } if until <= now => {
+                self.tries = self.tries.saturating_add(1);
+                if connected {
+                    return self.introduce(now);
+                }
+                self.outbox.event(ClientEvent::Dial { attempt: self.tries });
                 self.state = State::Dialling { deadline: Some(now + self.settings.timeout) };
             }
             State::Disconnecting { deadline } if deadline <= now => {
@@ -318,9 +324,9 @@ impl Client {
 
     /// Waits before the next try, longer after each failure. Gives the instant of that try.
     fn pause(&mut self, now: Instant, connected: bool) -> Instant {
-        let factor = 2u32.saturating_pow(self.failures);
+        let factor = 2u32.saturating_pow(self.pauses);
         let pause = self.settings.first_pause.saturating_mul(factor).min(self.settings.longest_pause);
-        self.failures = self.failures.saturating_add(1);
+        self.pauses = self.pauses.saturating_add(1);
         let until = now + pause;
         self.state = State::Paused { until, connected };
         until
@@ -364,7 +370,7 @@ impl Client {
         let (result, message) = (reply.result, reply.message.as_deref().map(str::to_owned));
         if result.is_accepted() {
             self.state = State::Established;
-            self.failures = 0;
+            (self.pauses, self.tries) = (0, 0);
             message.into_iter().for_each(|said| self.notice(format!("the server accepted, and said: {said}")));
             self.outbox.event(ClientEvent::Established { server_name: from_base64(&reply.server_name) });
         } else if result.is_temporary() {

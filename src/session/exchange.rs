@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Staged;
 use crate::signal_map::{Direction, RegisterId, Signal, SignalMap};
-use crate::value::{Quantity, Value};
+use crate::value::{Quantity, Unit, Value};
 use crate::wire::{Entry, Fault, Message, ResultCode, SendValueText, TextForm, read_value};
 
 /// The longest `SendValueReply` sent, in bytes: half the limit of a peer that keeps the default. A message of a megabyte
@@ -175,13 +175,9 @@ fn within_range(signal: &Signal, value: &Value) -> Result<(), String> {
     let bound = |bound: f64| if matches!(value, Value::Real(_)) { f64::from(bound as f32) } else { bound };
     if signal.min.is_some_and(|min| number < bound(min)) || signal.max.is_some_and(|max| number > bound(max)) {
         let end = |end: Option<f64>, open: &str| end.map_or(open.to_owned(), |end| end.to_string());
-        return Err(format!(
-            "{value} is outside this signal's range, {} to {}{}{}",
-            end(signal.min, "any"),
-            end(signal.max, "any"),
-            if signal.unit.symbol.is_empty() { "" } else { " " },
-            signal.unit
-        ));
+        let unit = if signal.unit == Unit::ONE { String::new() } else { format!(" {}", signal.unit) };
+        let (min, max) = (end(signal.min, "any"), end(signal.max, "any"));
+        return Err(format!("{value} is outside this signal's range, {min} to {max}{unit}"));
     }
     Ok(())
 }

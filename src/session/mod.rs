@@ -33,6 +33,9 @@ mod query;
 mod selection;
 mod server;
 
+#[cfg(test)]
+mod tests;
+
 pub use client::{Client, ClientEvent, ClientSettings, Ending};
 pub use interface::{Mismatch, interface_of, mismatches};
 pub use query::{Query, QueryEvent};

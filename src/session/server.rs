@@ -140,6 +140,11 @@ impl Server {
         true
     }
 
+    /// The settings, to be changed for what comes next: a server that is ready now, or no longer.
+    pub fn settings_mut(&mut self) -> &mut ServerSettings {
+        &mut self.settings
+    }
+
     /// Closes the connection with a WebSocket status code, whatever stands.
     pub fn close(&mut self, code: u16, reason: impl Into<String>) {
         if !matches!(self.state, State::Ended) {

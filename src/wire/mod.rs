@@ -34,9 +34,12 @@
 
 mod decode;
 mod encode;
+pub mod io_data;
 mod message;
 mod number;
 mod scan;
+#[cfg(test)]
+mod tests;
 mod value;
 
 pub use decode::{DecodeError, members};
