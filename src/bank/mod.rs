@@ -30,7 +30,8 @@
 //! overflow and at its place in the order; the owner then closes the connection, and what
 //! [`all_outputs`](IoSide::all_outputs) gives after the next connect makes up for it.
 //!
-//! `tests/loom_bank.rs` compiles these files against loom's atomics and tries every interleaving of small models.
+//! `tests/loom_bank.rs` compiles these files against loom's atomics and tries every interleaving of small models
+//! (`cargo nextest run --test loom_bank`); `benches/bank.rs` measures.
 
 mod ring;
 mod sides;

@@ -19,10 +19,10 @@
 
 use crossbeam::utils::CachePadded;
 
-use super::sync::{Arc, AtomicU64, Ordering};
+use super::sync::{Arc, AtomicU64, Cell, Ordering};
 
 struct Ring {
-    cells: Box<[AtomicU64]>,
+    cells: Box<[Cell]>,
     /// Words ever written; stored by the producer only.
     written: CachePadded<AtomicU64>,
     /// Words ever read; stored by the consumer only.
@@ -32,7 +32,7 @@ struct Ring {
 }
 
 impl Ring {
-    fn cell(&self, at: u64) -> &AtomicU64 {
+    fn cell(&self, at: u64) -> &Cell {
         &self.cells[at as usize & (self.cells.len() - 1)]
     }
 }
@@ -60,7 +60,7 @@ pub(super) struct Consumer {
 /// An empty ring for at least `words` words, and for at most `entries` entries.
 pub(super) fn ring(words: usize, entries: usize) -> (Producer, Consumer) {
     let ring = Arc::new(Ring {
-        cells: (0..words.next_power_of_two()).map(|_| AtomicU64::new(0)).collect(),
+        cells: (0..words.next_power_of_two()).map(|_| Cell::new()).collect(),
         written: CachePadded::new(AtomicU64::new(0)),
         read: CachePadded::new(AtomicU64::new(0)),
         released: AtomicU64::new(0),
@@ -83,7 +83,7 @@ impl Producer {
             return false;
         }
         for (at, word) in (self.written..).zip(record) {
-            self.ring.cell(at).store(*word, Ordering::Relaxed);
+            self.ring.cell(at).write(*word);
         }
         self.written = end;
         self.entries += entries;
@@ -107,7 +107,7 @@ impl Consumer {
     /// The word `offset` after the first that was not released; `offset` is less than [`available`](Self::available).
     pub(super) fn word(&self, offset: usize) -> u64 {
         debug_assert!(offset < self.available(), "a word past the end of what was written");
-        self.ring.cell(self.read + offset as u64).load(Ordering::Relaxed)
+        self.ring.cell(self.read + offset as u64).read()
     }
 
     /// Gives `words` words, which weighed `entries`, back to the producer.

@@ -34,7 +34,7 @@ pub fn new(map: &SignalMap) -> (SimulationSide, IoSide) {
 }
 
 /// A bank whose queue and log hold `capacity` entries each, in at most `most_words` words.
-pub(super) fn with_capacity(map: &SignalMap, capacity: usize, most_words: usize) -> (SimulationSide, IoSide) {
+pub(crate) fn with_capacity(map: &SignalMap, capacity: usize, most_words: usize) -> (SimulationSide, IoSide) {
     let layout = Arc::new(Layout::new(map));
     // Room for `capacity` records of one entry each, as long as the longest of them may be.
     let room = |places: &mut dyn Iterator<Item = &Place>, header: usize| {

@@ -18,7 +18,7 @@
 
 use crossbeam::utils::CachePadded;
 
-use super::sync::{Arc, AtomicU64, Ordering};
+use super::sync::{Arc, AtomicU64, Cell, Ordering};
 
 /// Set in `between` while what lies there is newer than what the reader has.
 const NEW: u64 = 0b100;
@@ -26,7 +26,7 @@ const NEW: u64 = 0b100;
 const INDEX: u64 = 0b011;
 
 struct Shared {
-    buffers: [Box<[AtomicU64]>; 3],
+    buffers: [Box<[Cell]>; 3],
     between: CachePadded<AtomicU64>,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Reader {
 
 /// Three buffers of `words` words each, all 0, nothing new in them.
 pub(super) fn triple(words: usize) -> (Writer, Reader) {
-    let buffer = || (0..words).map(|_| AtomicU64::new(0)).collect();
+    let buffer = || (0..words).map(|_| Cell::new()).collect();
     let shared =
         Arc::new(Shared { buffers: [buffer(), buffer(), buffer()], between: CachePadded::new(AtomicU64::new(1)) });
     (Writer { shared: shared.clone(), own: 0 }, Reader { shared, own: 2 })
@@ -54,7 +54,7 @@ impl Writer {
     /// Writes a whole cycle and hands it over. `words` is as long as the buffers are.
     pub(super) fn publish(&mut self, words: impl Iterator<Item = u64>) {
         for (cell, word) in self.shared.buffers[self.own as usize].iter().zip(words) {
-            cell.store(word, Ordering::Relaxed);
+            cell.write(word);
         }
         self.own = self.shared.between.swap(self.own | NEW, Ordering::AcqRel) & INDEX;
     }
@@ -72,6 +72,6 @@ impl Reader {
 
     /// A word of the cycle in hand.
     pub(super) fn word(&self, at: usize) -> u64 {
-        self.shared.buffers[self.own as usize][at].load(Ordering::Relaxed)
+        self.shared.buffers[self.own as usize][at].read()
     }
 }
