@@ -22,9 +22,9 @@ const CHANGING: u32 = 200;
 fn map() -> SignalMap {
     let signal = |i: u32| Signal {
         name: format!("signal {i}"),
-        ty: if i % 2 == 0 { "BOOL" } else { "REAL" }.parse().expect("a type"),
+        ty: if i.is_multiple_of(2) { "BOOL" } else { "REAL" }.parse().expect("a type"),
         direction: Direction::Report,
-        kind: if i % 2 == 0 { Kind::Edge } else { Kind::Level },
+        kind: if i.is_multiple_of(2) { Kind::Edge } else { Kind::Level },
         rate: RateClass::HighFrequency,
         unit: Unit::ONE,
         min: None,
@@ -38,7 +38,7 @@ fn map() -> SignalMap {
 
 fn values(cycle: u32) -> Vec<Value> {
     let value = |i: u32| match i % 2 {
-        0 => Value::Bool(i % 4 == 0),
+        0 => Value::Bool(i.is_multiple_of(4)),
         _ if i < 2 * CHANGING => Value::Real((i + cycle) as f32),
         _ => Value::Real(i as f32),
     };
@@ -142,7 +142,7 @@ fn ratios() {
     let mut ways = Ways::new();
     let (mut levels, mut copy, words) = (Vec::new(), values(0), vec![1; REGISTERS as usize]);
     let plain = least(|| ways.plain_write(&words));
-    let mut print = |name: &str, time: Duration| {
+    let print = |name: &str, time: Duration| {
         println!(
             "{name:<40} {:>8.3} µs  {:>6.1} x plain copy",
             time.as_secs_f64() * 1e6,
