@@ -14,3 +14,4 @@ pub mod signal_map;
 pub mod time;
 pub mod value;
 pub mod wire;
+pub mod xml;
