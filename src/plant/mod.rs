@@ -1,12 +1,23 @@
 //! A plant assembled from its prototypes: instances with their parameters in SI, the parts that stand in it at the start,
 //! and the signals map that follows from it.
 
+mod assemble;
+mod effect_spec;
+pub mod embedded;
+mod file;
+mod instance;
+mod load;
+mod parameter;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
 use crate::prototype::kind::KindDescriptor;
 use crate::signal_map::{RegisterId, SignalMap};
+
+pub use self::effect_spec::{EffectPlace, EffectSpec};
+pub use self::load::{ModelError, load};
 
 /// A plant, ready to be built into an engine.
 #[derive(Clone, Debug)]
@@ -55,6 +66,8 @@ pub struct Instance {
     pub prototype: String,
     pub pose: Pose,
     pub tasks: Vec<Task>,
+    /// What its device adds to the nominal law.
+    pub effects: Vec<EffectSpec>,
 }
 
 /// A task of an instance: one device of the engine.

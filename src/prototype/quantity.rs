@@ -1,6 +1,7 @@
 //! Numbers as people write them, with or without their unit, become SI.
 
 use crate::value::{Quantity, Unit};
+use crate::xml::one_of;
 
 /// A text that is no number of the quantity asked for.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -17,9 +18,9 @@ pub fn si_unit(quantity: Quantity) -> Unit {
     Unit::ALL.iter().find(|unit| unit.quantity == quantity).copied().unwrap_or(Unit::ONE)
 }
 
-/// The symbols of all units that a quantity may be written in, the SI unit first.
-pub fn symbols(quantity: Quantity) -> Vec<&'static str> {
-    Unit::ALL.iter().filter(|unit| unit.quantity == quantity).map(|unit| unit.symbol).collect()
+/// The symbols of all units that one of `quantities` may be written in, the SI unit of each first.
+pub fn symbols(quantities: &[Quantity]) -> Vec<&'static str> {
+    Unit::ALL.iter().filter(|unit| quantities.contains(&unit.quantity)).map(|unit| unit.symbol).collect()
 }
 
 /// `number`, which is in `unit`, in SI.
@@ -36,9 +37,10 @@ pub fn from_si(number: f64, unit: Unit) -> f64 {
     if unit.to_si < 1.0 && parts.fract() == 0.0 { number * parts } else { number / unit.to_si }
 }
 
-/// Reads one number: `500`, `500 mm`, `90deg`. A bare number is in `declared`, or in SI where nothing is declared.
-pub fn parse_number(text: &str, declared: Option<Unit>, quantity: Quantity) -> Result<f64, NumberError> {
-    match parse_numbers(text, declared, quantity)?.as_slice() {
+/// Reads one number of one of `quantities`: `500`, `500 mm`, `90deg`. A bare number is in `declared`, or in SI where
+/// nothing is declared.
+pub fn parse_number(text: &str, declared: Option<Unit>, quantities: &[Quantity]) -> Result<f64, NumberError> {
+    match parse_numbers(text, declared, quantities)?.as_slice() {
         [number] => Ok(*number),
         _ => Err(NumberError { found: format!("{text:?} holds several numbers"), expected: "expected one".to_owned() }),
     }
@@ -47,9 +49,10 @@ pub fn parse_number(text: &str, declared: Option<Unit>, quantity: Quantity) -> R
 /// Reads numbers separated by `;` or blanks: `300;1700`, `0 0 0`, `300;1700 mm`, `0.3 m;1700 mm`.
 ///
 /// A unit may follow each number, or stand once at the end for all. Bare numbers are in `declared`, or in SI.
-pub fn parse_numbers(text: &str, declared: Option<Unit>, quantity: Quantity) -> Result<Vec<f64>, NumberError> {
-    let written = tokens(text, quantity)?;
-    let default = declared.unwrap_or(si_unit(quantity));
+pub fn parse_numbers(text: &str, declared: Option<Unit>, quantities: &[Quantity]) -> Result<Vec<f64>, NumberError> {
+    let written = tokens(text, quantities)?;
+    let si = quantities.first().map_or(Unit::ONE, |quantity| si_unit(*quantity));
+    let default = declared.unwrap_or(si);
     let with_unit = written.iter().filter(|(_, unit)| unit.is_some()).count();
     let (count, last) = (written.len(), written.last().and_then(|(_, unit)| *unit));
     let all = match (with_unit, last) {
@@ -64,10 +67,10 @@ pub fn parse_numbers(text: &str, declared: Option<Unit>, quantity: Quantity) -> 
         }
     };
     for unit in written.iter().filter_map(|(_, unit)| *unit).chain([default]) {
-        if unit.quantity != quantity {
+        if !quantities.contains(&unit.quantity) {
             return Err(NumberError {
                 found: format!("{text:?} is in {unit}"),
-                expected: format!("expected a number in {}", crate::xml::one_of(symbols(quantity))),
+                expected: format!("expected a number in {}", one_of(symbols(quantities))),
             });
         }
     }
@@ -84,7 +87,7 @@ pub fn with_unit(text: &str, unit: Option<Unit>) -> String {
 }
 
 /// The numbers of a text, each with the unit that follows it.
-fn tokens(text: &str, quantity: Quantity) -> Result<Vec<(f64, Option<Unit>)>, NumberError> {
+fn tokens(text: &str, quantities: &[Quantity]) -> Result<Vec<(f64, Option<Unit>)>, NumberError> {
     let mut numbers: Vec<(f64, Option<Unit>)> = Vec::new();
     for token in text.split(|c: char| c == ';' || c.is_whitespace()).filter(|token| !token.is_empty()) {
         if let Some(number) = finite(token) {
@@ -93,11 +96,11 @@ fn tokens(text: &str, quantity: Quantity) -> Result<Vec<(f64, Option<Unit>)>, Nu
         }
         match (numbers.last_mut(), Unit::named(token)) {
             (Some((_, unit @ None)), Some(named)) => *unit = Some(named),
-            _ => numbers.push(glued(token).ok_or_else(|| no_number(text, token, quantity))?),
+            _ => numbers.push(glued(token).ok_or_else(|| no_number(text, token, quantities))?),
         }
     }
     match numbers.is_empty() {
-        true => Err(no_number(text, "", quantity)),
+        true => Err(no_number(text, "", quantities)),
         false => Ok(numbers),
     }
 }
@@ -115,15 +118,15 @@ fn finite(token: &str) -> Option<f64> {
     token.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-fn no_number(text: &str, token: &str, quantity: Quantity) -> NumberError {
+fn no_number(text: &str, token: &str, quantities: &[Quantity]) -> NumberError {
     let found = match token {
         "" => "there is no number".to_owned(),
         _ if token == text => format!("{text:?} is no number"),
         _ => format!("{token:?} in {text:?} is no number"),
     };
-    let unit = match quantity {
-        Quantity::One => String::new(),
-        _ => format!(", bare or in {}", crate::xml::one_of(symbols(quantity))),
+    let unit = match quantities {
+        [] | [Quantity::One] => String::new(),
+        _ => format!(", bare or in {}", one_of(symbols(quantities))),
     };
     NumberError { found, expected: format!("expected a finite number with a decimal point{unit}") }
 }
@@ -136,13 +139,13 @@ mod tests {
     #[track_caller]
     fn check(text: &str, declared: Option<&str>, quantity: Quantity, expect: &[f64]) {
         let declared = declared.map(|symbol| Unit::named(symbol).expect(symbol));
-        assert_eq!(parse_numbers(text, declared, quantity).as_deref(), Ok(expect), "{text}");
+        assert_eq!(parse_numbers(text, declared, &[quantity]).as_deref(), Ok(expect), "{text}");
     }
 
     #[track_caller]
     fn refused(text: &str, declared: Option<&str>, quantity: Quantity, expect: &str) {
         let declared = declared.map(|symbol| Unit::named(symbol).expect(symbol));
-        let error = parse_numbers(text, declared, quantity).expect_err(text).to_string();
+        let error = parse_numbers(text, declared, &[quantity]).expect_err(text).to_string();
         assert!(error.contains(expect), "{text}: {error}");
     }
 
@@ -180,7 +183,12 @@ mod tests {
     #[test]
     fn what_is_no_number_of_the_quantity_is_refused() {
         refused("", None, One, "there is no number");
-        refused("0,5", None, Length, "\"0,5\" is no number: expected a finite number with a decimal point, bare or in m or mm");
+        refused(
+            "0,5",
+            None,
+            Length,
+            "\"0,5\" is no number: expected a finite number with a decimal point, bare or in m or mm",
+        );
         refused("inf", None, One, "no number");
         refused("NaN", None, One, "no number");
         refused("5 furlong", None, Length, "\"furlong\" in \"5 furlong\"");

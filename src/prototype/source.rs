@@ -77,7 +77,8 @@ mod tests {
 
     #[test]
     fn paths_are_joined_in_words_alone() {
-        let check = |folder: &str, path: &str, expect: &str| assert_eq!(join(folder, path), expect, "{folder} + {path}");
+        let check =
+            |folder: &str, path: &str, expect: &str| assert_eq!(join(folder, path), expect, "{folder} + {path}");
         check("models/curve", "../rig/plant.xml", "models/rig/plant.xml");
         check("models/rig", "./plant.xml", "models/rig/plant.xml");
         check("", "plant.xml", "plant.xml");

@@ -4,6 +4,8 @@
 //! nothing below it knows names. The map follows from the plant (`kinetwin signals-map MODEL` writes it) and stands as
 //! XML under `signals-maps/`, as the connector of the reference expects it (section 5.3.2.3, `signals-map`).
 
+pub mod xml;
+
 use std::collections::HashMap;
 
 use crate::value::{SignalType, Unit};

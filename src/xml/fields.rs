@@ -8,7 +8,8 @@ use super::{Element, Faults, Located};
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let plain = word.to_lowercase();
     let distance = |candidate: &str| strsim::damerau_levenshtein(&plain, &candidate.to_lowercase());
-    let near = known.into_iter().map(|candidate| (distance(candidate), candidate)).min_by_key(|(distance, _)| *distance);
+    let near =
+        known.into_iter().map(|candidate| (distance(candidate), candidate)).min_by_key(|(distance, _)| *distance);
     near.filter(|(distance, _)| *distance <= plain.chars().count().div_ceil(3)).map(|(_, candidate)| candidate)
 }
 
@@ -45,6 +46,25 @@ impl Element {
             return None;
         }
         Some(value)
+    }
+
+    /// The value of the attribute called `name` as one of some words; a fault if it is another, `None` without one.
+    pub fn choice<T: Copy>(&self, name: &str, words: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+        let value = self.attribute(name)?;
+        let chosen = words.iter().find(|(word, _)| *word == value.value).map(|(_, chosen)| *chosen);
+        if chosen.is_none() {
+            let known = words.iter().map(|(word, _)| *word);
+            let found = format!("{:?} is no {name} known here", value.value);
+            let fault = value.fault(found, format!("expected {}", one_of(known.clone())));
+            faults.push(fault.did_you_mean(nearest(&value.value, known)));
+        }
+        chosen
+    }
+
+    /// As [`choice`](Element::choice), of an attribute that has to be there.
+    pub fn required_choice<T: Copy>(&self, name: &str, words: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+        self.required(name, faults)?;
+        self.choice(name, words, faults)
     }
 
     /// Faults for all attributes other than `known`. Those of a namespace, which schema editors add, are passed over.

@@ -28,8 +28,8 @@ pub fn parse(name: &str, text: &str) -> Result<Element, Faults> {
         return Err(place.fault("the file is longer than 16 MiB", "expected a file of a reasonable size").into());
     }
     let mut tree = Tree { file: &file, open: Vec::new(), root: None, faults: Faults::default() };
-    if let Err(fault) = tree.read() {
-        tree.faults.push(fault);
+    if let Err(fatal) = tree.read() {
+        tree.faults.append(fatal);
     }
     match tree.root {
         Some(root) if tree.faults.is_empty() => Ok(root),
@@ -50,15 +50,17 @@ impl Tree<'_> {
         Place::new(self.file, span)
     }
 
-    fn read(&mut self) -> Result<(), Fault> {
+    fn read(&mut self) -> Result<(), Faults> {
         let file = Arc::clone(self.file);
         let mut reader = Reader::from_str(file.text());
+        // Others, editors and schema checkers among them, refuse what XML does not allow in a comment.
+        reader.config_mut().check_comments = true;
         loop {
             let start = reader.buffer_position() as usize;
-            let event = reader.read_event().map_err(|error| {
-                let at = reader.error_position() as usize;
-                self.malformed(&error, at)
-            })?;
+            let event = match reader.read_event() {
+                Ok(event) => event,
+                Err(error) => return Err(self.malformed(&error, reader.error_position() as usize).into()),
+            };
             let span = start..reader.buffer_position() as usize;
             match event {
                 Event::Start(tag) => self.start(&tag, span)?,
@@ -71,8 +73,9 @@ impl Tree<'_> {
                 Event::CData(text) => self.text(&text.xml10_content(), span),
                 Event::GeneralRef(reference) => self.reference(&reference, span),
                 Event::DocType(_) => {
-                    let fault = self.place(span).fault("a document type stands here", "expected elements and comments only");
-                    return Err(fault.help("remove <!DOCTYPE …>: the files of a model need none"));
+                    let fault =
+                        self.place(span).fault("a document type stands here", "expected elements and comments only");
+                    return Err(fault.help("remove <!DOCTYPE …>: the files of a model need none").into());
                 }
                 Event::Comment(_) | Event::Decl(_) | Event::PI(_) => {}
                 Event::Eof => return self.eof(),
@@ -80,28 +83,29 @@ impl Tree<'_> {
         }
     }
 
-    fn eof(&self) -> Result<(), Fault> {
+    fn eof(&self) -> Result<(), Faults> {
         let end = self.file.text().len();
         if let Some(open) = self.open.last() {
             let name = &open.name.value;
-            return Err(open.name.fault(format!("<{name}> is not closed"), format!("expected </{name}> before the file's end")));
+            let expected = format!("expected </{name}> before the file's end");
+            return Err(open.name.fault(format!("<{name}> is not closed"), expected).into());
         }
         match self.root {
             Some(_) => Ok(()),
-            None => Err(self.place(end..end).fault("the file holds no element", "expected a root element")),
+            None => Err(self.place(end..end).fault("the file holds no element", "expected a root element").into()),
         }
     }
 
-    fn start(&mut self, tag: &BytesStart<'_>, span: Range<usize>) -> Result<(), Fault> {
+    fn start(&mut self, tag: &BytesStart<'_>, span: Range<usize>) -> Result<(), Faults> {
         // The tag's name follows its `<`.
         let origin = span.start + 1;
         let name = tag.name().as_ref().to_owned();
         let place = self.place(origin..origin + name.len());
         if self.open.is_empty() && self.root.is_some() {
-            return Err(place.fault(format!("a second root element <{name}>"), "expected the file's end"));
+            return Err(place.fault(format!("a second root element <{name}>"), "expected the file's end").into());
         }
         if self.open.len() >= DEEPEST {
-            return Err(place.fault(format!("elements nest deeper than {DEEPEST}"), "expected a model's file"));
+            return Err(place.fault(format!("elements nest deeper than {DEEPEST}"), "expected a model's file").into());
         }
         let attributes = self.attributes(tag, origin);
         let text = Located::new(String::new(), &place);
@@ -149,8 +153,12 @@ impl Tree<'_> {
             self.place(start..start + length)
         };
         match *error {
-            AttrError::ExpectedEq(at) => word(at).fault("an attribute without a value", "expected =\"…\" after the name"),
-            AttrError::ExpectedValue(at) => word(at).fault("an attribute without a value", "expected a value in quotes"),
+            AttrError::ExpectedEq(at) => {
+                word(at).fault("an attribute without a value", "expected =\"…\" after the name")
+            }
+            AttrError::ExpectedValue(at) => {
+                word(at).fault("an attribute without a value", "expected a value in quotes")
+            }
             AttrError::UnquotedValue(at) => word(at).fault("a value without quotes", "expected a value in quotes"),
             AttrError::ExpectedQuote(at, quote) => {
                 word(at).fault("a value without its closing quote", format!("expected a closing {}", quote as char))
@@ -181,7 +189,8 @@ impl Tree<'_> {
                 element.text.value.push_str(text);
             }
             None if !blank => {
-                self.faults.push(place.fault("text outside of the root element", "expected elements and comments only"));
+                self.faults
+                    .push(place.fault("text outside of the root element", "expected elements and comments only"));
             }
             None => {}
         }
@@ -216,10 +225,15 @@ impl Tree<'_> {
             XmlError::IllFormed(IllFormedError::UnmatchedEndTag(found)) => {
                 place.fault(format!("</{found}> closes nothing"), "expected no end tag here")
             }
+            XmlError::IllFormed(IllFormedError::DoubleHyphenInComment) => {
+                place.fault("a comment with -- in it", "expected a comment without: XML forbids it")
+            }
             XmlError::IllFormed(IllFormedError::UnclosedReference) => {
                 place.fault("an & that starts no reference", "expected &amp; for an & in a text")
             }
-            XmlError::Syntax(SyntaxError::UnclosedTag) => place.fault("a tag that is not closed", "expected a > or /> after it"),
+            XmlError::Syntax(SyntaxError::UnclosedTag) => {
+                place.fault("a tag that is not closed", "expected a > or /> after it")
+            }
             XmlError::Syntax(
                 SyntaxError::UnclosedDoubleQuotedAttributeValue | SyntaxError::UnclosedSingleQuotedAttributeValue,
             ) => place.fault("a tag with a value that is not closed", "expected a closing quote in it"),

@@ -1,0 +1,58 @@
+//! The catalogue and the plants that the program carries with it, so that it runs without a folder of models.
+
+use crate::prototype::source::{Source, SourceError};
+
+/// The files below `models/` as they were when the program was built, under their paths: `models/rig/plant.xml`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Embedded;
+
+macro_rules! embedded {
+    ($($path:literal),* $(,)?) => {
+        &[$(($path, include_str!(concat!("../../", $path)))),*]
+    };
+}
+
+/// Every XML file below `models/`; a test sees to it that none is forgotten.
+static FILES: &[(&str, &str)] = embedded![
+    "models/catalogue/CartesianRobot/avatar.xml",
+    "models/catalogue/CartesianRobot/prototype.xml",
+    "models/catalogue/ConveyorCurve/avatar.xml",
+    "models/catalogue/ConveyorCurve/prototype.xml",
+    "models/catalogue/EncoderMotor/avatar.xml",
+    "models/catalogue/EncoderMotor/prototype.xml",
+    "models/catalogue/LoadingBay/avatar.xml",
+    "models/catalogue/LoadingBay/prototype.xml",
+    "models/catalogue/Pusher/avatar.xml",
+    "models/catalogue/Pusher/prototype.xml",
+    "models/catalogue/ServoAxis/avatar.xml",
+    "models/catalogue/ServoAxis/prototype.xml",
+    "models/catalogue/StraightConveyor/avatar.xml",
+    "models/catalogue/StraightConveyor/prototype.xml",
+    "models/catalogue/SuctionCapGripper/avatar.xml",
+    "models/catalogue/SuctionCapGripper/prototype.xml",
+    "models/catalogue/UnloadingBay/avatar.xml",
+    "models/catalogue/UnloadingBay/prototype.xml",
+    "models/curve/plant.xml",
+    "models/rig-toleranced/plant.xml",
+    "models/rig/plant.xml",
+    "models/servo-arm/plant.xml",
+    "models/servo-pendulum/kp100.xml",
+    "models/servo-pendulum/kp200.xml",
+    "models/servo-pendulum/kp400.xml",
+    "models/servo-pendulum/kp800.xml",
+    "models/servo-pendulum/plant.xml",
+];
+
+impl Embedded {
+    /// The paths of all files, sorted.
+    pub fn paths() -> impl Iterator<Item = &'static str> {
+        FILES.iter().map(|(path, _)| *path)
+    }
+}
+
+impl Source for Embedded {
+    fn read(&self, path: &str) -> Result<String, SourceError> {
+        let file = FILES.iter().find(|(known, _)| *known == path);
+        file.map(|(_, text)| (*text).to_owned()).ok_or_else(|| SourceError::NotFound { path: path.to_owned() })
+    }
+}
