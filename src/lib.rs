@@ -3,6 +3,7 @@
 #![deny(unsafe_code)]
 
 pub mod adapter;
+pub mod automation;
 pub mod bank;
 pub mod device;
 pub mod kinematics;

@@ -202,6 +202,17 @@ fn no_source_file_has_grown_past_seven_hundred_lines() {
 }
 
 #[test]
+fn the_automation_knows_the_plant_by_its_signals_alone() {
+    let allowed = ["automation", "value", "time", "signal_map", "wire", "session", "trace"];
+    for path in files(&root().join("src/automation"), &[".rs"]) {
+        let text = code(&fs::read_to_string(&path).expect("a source file"));
+        for named in named_after(&text, "crate::") {
+            assert!(allowed.contains(&named.as_str()), "{}: names {named}", relative(&path));
+        }
+    }
+}
+
+#[test]
 fn the_withheld_plant_shares_nothing_with_the_diagnosis() {
     let allowed = ["value", "time", "wire", "session", "trace", "signal_map"];
     for path in files(&root().join("tools/withheld-plant"), &[".rs"]) {
