@@ -17,7 +17,7 @@
 //! The motion is computed by its Taylor series from one change of regime (a limit taken or left) to the next, so that it
 //! is exact whatever the span: see [`super::taylor`].
 
-use super::taylor::Series;
+use super::taylor::{RECIPROCALS, Series};
 
 /// Standard gravity, m/s² (3rd CGPM, 1901).
 const GRAVITY: f64 = 9.80665;
@@ -61,6 +61,8 @@ pub struct Mechanics {
 pub struct Servo {
     drive: Loop,
     mechanics: Mechanics,
+    /// A bound of the rates at which both can move, 1/s.
+    rate: f64,
     /// The part of the demand that is constant over a span.
     pub reference: f64,
     /// Whether the drive may exert a force at all.
@@ -91,10 +93,31 @@ struct Motion {
     demand: Series,
 }
 
+impl Motion {
+    fn new(order: usize) -> Motion {
+        let zero = Series::zero(order);
+        Motion { position: zero, velocity: zero, integral: zero, demand: zero }
+    }
+}
+
+/// A bound of the rates at which an axis can move, 1/s: the sum of the rates that stand for each coupling alone (a norm of
+/// the system's matrix in the scaling of its states that makes it least); above 0.
+fn rate(drive: &Loop, mechanics: &Mechanics) -> f64 {
+    let Loop { position_gain, velocity_gain, integral_time, .. } = *drive;
+    let Mechanics { inertia, viscous_friction, pendulum, .. } = *mechanics;
+    let stiffness = position_gain + pendulum * GRAVITY;
+    let reset = integral_time.map_or(0.0, |time| {
+        1.0 / time + (velocity_gain / (inertia * time)).sqrt() + (position_gain / (inertia * time)).cbrt()
+    });
+    let rate = (stiffness / inertia).sqrt() + (velocity_gain + viscous_friction) / inertia + reset;
+    rate.max(f64::MIN_POSITIVE)
+}
+
 impl Servo {
     /// An axis at rest at 0, torque on.
     pub fn new(drive: Loop, mechanics: Mechanics) -> Servo {
-        Servo { drive, mechanics, reference: 0.0, torque: true, position: 0.0, velocity: 0.0, integral: 0.0 }
+        let rate = rate(&drive, &mechanics);
+        Servo { drive, mechanics, rate, reference: 0.0, torque: true, position: 0.0, velocity: 0.0, integral: 0.0 }
     }
 
     /// Present position, m or rad.
@@ -118,16 +141,9 @@ impl Servo {
         self.reference - position_gain * self.position - velocity_gain * self.velocity + self.integral
     }
 
-    /// A bound of the rates at which loop and mechanics can move, 1/s: sum of the geometric means of each coupling and
-    /// its way back (a norm of the system's matrix in the scaling that makes it least).
+    /// A bound of the rates at which loop and mechanics can move, 1/s.
     pub fn rate(&self) -> f64 {
-        let Loop { position_gain, velocity_gain, integral_time, .. } = self.drive;
-        let Mechanics { inertia, viscous_friction, pendulum, .. } = self.mechanics;
-        let stiffness = position_gain + pendulum * GRAVITY;
-        let reset = integral_time.map_or(0.0, |time| {
-            1.0 / time + (velocity_gain / (inertia * time)).sqrt() + (position_gain / (inertia * time)).cbrt()
-        });
-        (stiffness / inertia).sqrt() + (velocity_gain + viscous_friction) / inertia + reset
+        self.rate
     }
 
     /// Moves by `seconds`.
@@ -136,8 +152,9 @@ impl Servo {
         let mut changes = 0;
         while rest > 0.0 {
             let regime = self.regime();
-            let motion = self.motion(regime);
-            let step = rest.min(self.longest_step(motion.velocity.0[1]));
+            let (rate, longest) = self.pace();
+            let step = rest.min(longest);
+            let motion = self.motion(regime, Series::order_for(rate * step));
             let change = if changes < MOST_CHANGES { self.change(regime, &motion, step) } else { None };
             changes += u32::from(change.is_some());
             let taken = change.unwrap_or(step);
@@ -148,12 +165,14 @@ impl Servo {
         }
     }
 
-    /// How far the series of a motion that starts with `acceleration` is good for, s.
-    fn longest_step(&self, acceleration: f64) -> f64 {
+    /// A bound of the rates at which the motion changes from here on, 1/s, and how far its series is good for, s.
+    fn pace(&self) -> (f64, f64) {
         if self.mechanics.pendulum > 0.0 {
-            PENDULUM_STEP / (self.rate() + self.velocity.abs() + acceleration.abs().sqrt())
+            let rate = self.rate + self.velocity.abs() + self.acceleration().abs().sqrt();
+            // The sine's series has a radius of convergence: its terms fall like a geometric series, and all are used.
+            (f64::INFINITY, PENDULUM_STEP / rate)
         } else {
-            LINEAR_STEP / self.rate().max(f64::MIN_POSITIVE)
+            (self.rate, LINEAR_STEP / self.rate)
         }
     }
 
@@ -178,8 +197,12 @@ impl Servo {
     fn demand_rate(&self) -> f64 {
         let force = self.force();
         let reset = self.drive.integral_time.map_or(0.0, |time| (force - self.integral) / time);
-        let acceleration = (force - self.resistance()) / self.mechanics.inertia;
-        reset - self.drive.position_gain * self.velocity - self.drive.velocity_gain * acceleration
+        reset - self.drive.position_gain * self.velocity - self.drive.velocity_gain * self.acceleration()
+    }
+
+    /// How fast the velocity changes now.
+    fn acceleration(&self) -> f64 {
+        (self.force() - self.resistance()) / self.mechanics.inertia
     }
 
     /// Friction and load now.
@@ -204,36 +227,36 @@ impl Servo {
     }
 
     /// The motion from here on in `regime`, by the recurrences of its equations' coefficients.
-    fn motion(&self, regime: Regime) -> Motion {
+    fn motion(&self, regime: Regime, order: usize) -> Motion {
         let Loop { position_gain, velocity_gain, integral_time, limit } = self.drive;
         let Mechanics { inertia, viscous_friction, load, pendulum } = self.mechanics;
-        let (mut x, mut v, mut i) = ([0.0; Series::ORDER + 1], [0.0; Series::ORDER + 1], [0.0; Series::ORDER + 1]);
-        let mut demand = Series::ZERO;
+        let mobility = 1.0 / inertia;
+        let reset = integral_time.filter(|_| self.torque).map_or(0.0, |time| 1.0 / time);
+        let mut motion = Motion::new(order);
+        let (x, v) = (&mut motion.position.coefficients, &mut motion.velocity.coefficients);
+        let (i, demand) = (&mut motion.integral.coefficients, &mut motion.demand.coefficients);
         let mut weight = Pendulum::new(pendulum * GRAVITY, self.position);
         (x[0], v[0], i[0]) = (self.position, self.velocity, if self.torque { self.integral } else { 0.0 });
+        // What is constant enters the coefficients of power 0 alone.
         let (mut reference, mut constant_load) = (self.reference, load);
         let mut constant_force = match regime {
             Regime::Free | Regime::Off => 0.0,
             Regime::Upper => limit,
             Regime::Lower => -limit,
         };
-        for k in 0..=Series::ORDER {
-            demand.0[k] = reference - position_gain * x[k] - velocity_gain * v[k] + i[k];
-            if k == Series::ORDER {
-                break;
-            }
-            let force = if regime == Regime::Free { demand.0[k] } else { constant_force };
+        for k in 0..order {
+            demand[k] = reference - position_gain * x[k] - velocity_gain * v[k] + i[k];
+            let force = if regime == Regime::Free { demand[k] } else { constant_force };
             let resistance = viscous_friction * v[k] + constant_load + weight.coefficient(k);
-            let next = (k + 1) as f64;
-            x[k + 1] = v[k] / next;
-            v[k + 1] = (force - resistance) / (inertia * next);
-            if let (Some(time), true) = (integral_time, self.torque) {
-                i[k + 1] = (force - i[k]) / (time * next);
-            }
-            weight.extend(k, &x);
+            let share = RECIPROCALS[k + 1];
+            x[k + 1] = v[k] * share;
+            v[k + 1] = (force - resistance) * mobility * share;
+            i[k + 1] = (force - i[k]) * reset * share;
+            weight.extend(k, x);
             (reference, constant_load, constant_force) = (0.0, 0.0, 0.0);
         }
-        Motion { position: Series(x), velocity: Series(v), integral: Series(i), demand }
+        demand[order] = i[order] - position_gain * x[order] - velocity_gain * v[order];
+        motion
     }
 
     /// Its numbers, for a state's hash.
@@ -277,7 +300,7 @@ impl Pendulum {
             sine += rate * self.cosine[k - j];
             cosine -= rate * self.sine[k - j];
         }
-        (self.sine[k + 1], self.cosine[k + 1]) = (sine / (k + 1) as f64, cosine / (k + 1) as f64);
+        (self.sine[k + 1], self.cosine[k + 1]) = (sine * RECIPROCALS[k + 1], cosine * RECIPROCALS[k + 1]);
     }
 }
 
@@ -357,6 +380,17 @@ mod tests {
     }
 
     #[test]
+    fn a_constant_force_alone_gives_a_parabola() {
+        let drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: 500.0 };
+        let mechanics = Mechanics { inertia: 20.0, viscous_friction: 0.0, load: 10.0, pendulum: 0.0 };
+        let mut axis = Servo::new(drive, mechanics);
+        axis.reference = 50.0;
+        axis.advance(10.0);
+        check(axis.velocity(), 20.0, 1e-13);
+        check(axis.position(), 100.0, 1e-12);
+    }
+
+    #[test]
     fn a_limit_is_left_at_its_very_instant() {
         // Until 800·(25·(0.08 − x) − v) falls to 500 the axis accelerates at its limit; both spans cross it.
         let mut fine = rig(500.0);
@@ -388,6 +422,7 @@ mod tests {
         let mut axis = rig(500.0);
         axis.drive.integral_time = Some(0.05);
         axis.mechanics.load = 300.0;
+        axis.rate = rate(&axis.drive, &axis.mechanics);
         axis.advance(3.0);
         check(axis.position(), 0.0, 1e-9);
         check(axis.force(), 300.0, 1e-6);
@@ -434,6 +469,7 @@ mod tests {
             axis.drive.integral_time = reset;
             axis.mechanics.load = load;
             axis.mechanics.pendulum = pendulum.unwrap_or(0.0);
+            axis.rate = rate(&axis.drive, &axis.mechanics);
             (axis.reference, axis.position, axis.velocity, axis.torque) = (reference, position, velocity, torque);
             let (x, v, i) = by_runge_kutta(&axis, 0.5, 50_000);
             axis.advance(0.5);
@@ -454,6 +490,7 @@ mod tests {
             let mut axis = rig(limit);
             axis.drive.integral_time = reset;
             axis.mechanics.pendulum = pendulum.unwrap_or(0.0);
+            axis.rate = rate(&axis.drive, &axis.mechanics);
             (axis.reference, axis.position, axis.velocity) = (reference, position, velocity);
             let mut split = axis;
             axis.advance(0.5);

@@ -11,24 +11,55 @@ const INTERVALS: u32 = 8;
 
 /// A power series in time, in seconds from the start of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Series(pub [f64; Series::ORDER + 1]);
+pub struct Series {
+    /// By power.
+    pub coefficients: [f64; Series::ORDER + 1],
+    /// The highest power in use, at least 1.
+    pub order: usize,
+}
+
+/// 1 / n; that of 0 is never used.
+pub const RECIPROCALS: [f64; Series::ORDER + 1] = {
+    let mut reciprocals = [0.0; Series::ORDER + 1];
+    let mut n = 1;
+    while n <= Series::ORDER {
+        reciprocals[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    reciprocals
+};
 
 impl Series {
     /// The highest power. With a step of 2 / ρ, where ρ bounds the motion's rates, the first neglected term is below
     /// 2²¹ / 21! = 4·10⁻¹⁴ of the motion.
     pub const ORDER: usize = 20;
 
-    /// No motion.
-    pub const ZERO: Series = Series([0.0; Series::ORDER + 1]);
+    /// No motion yet, in powers up to `order`.
+    pub fn zero(order: usize) -> Series {
+        Series { coefficients: [0.0; Series::ORDER + 1], order }
+    }
+
+    /// The highest power that a step needs: `reach` is its length times a bound of the motion's rates. Where
+    /// [`Series::ORDER`] allows, reachⁿ / n! is below 10⁻¹⁷; three powers more hold what enters from outside, which no rate
+    /// bounds: a constant force moves the position with the square of the time, its integral with the cube.
+    pub fn order_for(reach: f64) -> usize {
+        let mut term = reach;
+        let mut order = 1;
+        while order < Series::ORDER - 3 && term > 1e-17 {
+            order += 1;
+            term *= reach * RECIPROCALS[order];
+        }
+        order + 3
+    }
 
     /// The value after `seconds`.
     pub fn at(&self, seconds: f64) -> f64 {
-        self.0.iter().rev().fold(0.0, |sum, coefficient| sum * seconds + coefficient)
+        self.coefficients[..=self.order].iter().rev().fold(0.0, |sum, coefficient| sum * seconds + coefficient)
     }
 
     /// The rate of change after `seconds`.
     pub fn rate_at(&self, seconds: f64) -> f64 {
-        let powers = self.0.iter().enumerate().skip(1);
+        let powers = self.coefficients[..=self.order].iter().enumerate().skip(1);
         powers.rev().fold(0.0, |sum, (power, coefficient)| sum * seconds + coefficient * power as f64)
     }
 
@@ -36,7 +67,7 @@ impl Series {
     /// that starts on the level (within rounding) and moves away from that side has not passed it.
     pub fn crossing(&self, level: f64, upwards: bool, seconds: f64) -> Option<f64> {
         let side = if upwards { 1.0 } else { -1.0 };
-        if side * (self.0[0] - level) + self.reach(seconds) < 0.0 {
+        if side * (self.coefficients[0] - level) + self.reach(seconds) < 0.0 {
             return None;
         }
         let beyond = |time: f64| side * (self.at(time) - level);
@@ -66,7 +97,7 @@ impl Series {
 
     /// How far the series can get from its start within `seconds`, at most.
     fn reach(&self, seconds: f64) -> f64 {
-        self.0[1..].iter().rev().fold(0.0, |sum, coefficient| (sum + coefficient.abs()) * seconds)
+        self.coefficients[1..=self.order].iter().rev().fold(0.0, |sum, coefficient| (sum + coefficient.abs()) * seconds)
     }
 }
 
@@ -87,9 +118,9 @@ mod tests {
 
     /// amplitude · sin(rate · t + phase).
     fn sine(amplitude: f64, rate: f64, phase: f64) -> Series {
-        let mut series = Series::ZERO;
+        let mut series = Series::zero(Series::ORDER);
         let mut factor = amplitude;
-        for (k, coefficient) in series.0.iter_mut().enumerate() {
+        for (k, coefficient) in series.coefficients.iter_mut().enumerate() {
             let turned = phase + std::f64::consts::FRAC_PI_2 * k as f64;
             *coefficient = factor * turned.sin();
             factor *= rate / (k + 1) as f64;

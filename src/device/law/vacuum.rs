@@ -2,7 +2,8 @@
 //!
 //! Blowing wins over suction: the vacuum is lost at once, and building up starts anew when blowing ends. Suction that
 //! returns before the release has ended never loses the vacuum; suction shorter than the build-up gives none. Cups that
-//! are no longer sealed lose it at once.
+//! are no longer sealed lose it at once. A command at the very instant at which a time ends comes first: suction that
+//! returns then keeps the vacuum, suction that goes then has given none.
 
 use super::SAME_INSTANT_S;
 
@@ -16,7 +17,7 @@ pub struct Vacuum {
     suction: bool,
     blow: bool,
     sealed: bool,
-    /// Whether vacuum held when this was last settled.
+    /// Whether vacuum held when suction, blowing or seal last changed, or when time last began to pass.
     held: bool,
     /// How long suction, blowing and seal have been what they are now, as far as it matters, s.
     elapsed: f64,
@@ -31,6 +32,7 @@ impl Vacuum {
     /// Suction and blowing from now on.
     pub fn command(&mut self, suction: bool, blow: bool) {
         if (suction, blow) != (self.suction, self.blow) {
+            self.held = self.held_before();
             self.suction = suction;
             self.blow = blow;
             self.elapsed = 0.0;
@@ -40,35 +42,41 @@ impl Vacuum {
     /// Whether the cups are sealed from now on.
     pub fn seal(&mut self, sealed: bool) {
         if sealed != self.sealed {
+            self.held = self.held_before();
             self.sealed = sealed;
             self.elapsed = 0.0;
         }
     }
 
-    /// Whether vacuum holds now.
+    /// Whether vacuum holds now, what ends at this instant included.
     pub fn holds(&self) -> bool {
+        self.held_after(self.elapsed + SAME_INSTANT_S)
+    }
+
+    /// Whether it held until now, what ends at this instant not included.
+    fn held_before(&self) -> bool {
+        self.held_after(self.elapsed - SAME_INSTANT_S)
+    }
+
+    /// Whether it holds `elapsed` seconds after the last change.
+    fn held_after(&self, elapsed: f64) -> bool {
         if self.blow || !self.sealed {
             return false;
         }
         match (self.held, self.suction) {
             (true, true) => true,
-            (true, false) => self.elapsed < self.release_time - SAME_INSTANT_S,
-            (false, true) => self.elapsed >= self.build_up_time - SAME_INSTANT_S,
+            (true, false) => elapsed < self.release_time,
+            (false, true) => elapsed >= self.build_up_time,
             (false, false) => false,
         }
     }
 
     /// Moves by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
-        self.settle();
-        self.elapsed += seconds;
-        self.settle();
-    }
-
-    /// Keeps what holds now. Nothing else can happen in the same stretch: with the commands constant, cups that have
-    /// won or lost their vacuum stay so.
-    fn settle(&mut self) {
-        self.held = self.holds();
+        if seconds > 0.0 {
+            self.held = self.holds();
+            self.elapsed += seconds;
+        }
     }
 
     /// Its numbers, for a state's hash.
@@ -124,19 +132,18 @@ mod tests {
 
     #[test]
     fn suction_that_returns_in_time_never_loses_the_vacuum() {
-        check(&[(100, true, false), (400, false, false), (479, true, false)], &[(250, true)]);
+        check(&[(100, true, false), (400, false, false), (480, true, false)], &[(250, true)]);
         check(
-            &[(100, true, false), (400, false, false), (480, true, false)],
-            &[(250, true), (480, false), (630, true)],
+            &[(100, true, false), (400, false, false), (481, true, false)],
+            &[(250, true), (480, false), (631, true)],
         );
     }
 
     #[test]
     fn a_pulse_too_short_gives_none() {
-        check(&[(100, true, false), (249, false, false)], &[]);
+        check(&[(100, true, false), (250, false, false)], &[]);
         check(&[(100, true, false), (249, false, false), (260, true, false)], &[(410, true)]);
-        // On the very instant it is there, and is released after.
-        check(&[(100, true, false), (250, false, false)], &[(250, true), (330, false)]);
+        check(&[(100, true, false), (251, false, false)], &[(250, true), (331, false)]);
     }
 
     #[test]
