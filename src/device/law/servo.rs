@@ -12,7 +12,7 @@
 //!
 //! The integrator is written as automatic reset: inside the limits F − i is the loop's proportional part and i its usual
 //! integral; at a limit i tends to the limit with the same time constant and cannot wind up (K. J. Åström, T. Hägglund,
-//! Advanced PID Control, ISA 2006, section 3.5).
+//! Advanced PID Control, ISA 2006, on integrator windup).
 //!
 //! The motion is computed by its Taylor series from one change of regime (a limit taken or left) to the next, so that it
 //! is exact whatever the span: see [`super::taylor`].
