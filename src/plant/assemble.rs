@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::file::{AdapterDeclaration, InstanceDeclaration, PartDeclaration, PlantFile};
 use super::instance::{Built, build};
-use super::{AdapterSettings, InitialPart, Plant};
+use super::{AdapterSettings, EMBEDDED_HOST, InitialPart, Plant};
 use crate::prototype::kind::KindDescriptor;
 use crate::prototype::source::{Source, join};
 use crate::prototype::{self, Prototype};
@@ -17,9 +17,7 @@ use crate::xml::{Faults, Located, nearest, one_of};
 /// How far a real device may lie from its model where nobody says: one per cent, as real drums differ.
 const DEFAULT_TOLERANCE: f64 = 0.01;
 
-/// Where the automation is, where the plant does not say: this machine, and the port that runtimes of the standard
-/// listen on.
-const DEFAULT_HOST: &str = "127.0.0.1";
+/// Where a host is named without a port: the one that runtimes of the standard listen on.
 const DEFAULT_PORT: u16 = 61499;
 const DEFAULT_TIMEOUT: Duration = Duration::from_secs(5);
 const DEFAULT_HF: Duration = Duration::from_millis(20);
@@ -142,7 +140,7 @@ fn signal_map(plant: &Located<String>, signals: Vec<Located<Signal>>, faults: &m
 
 fn adapter(declared: AdapterDeclaration) -> AdapterSettings {
     AdapterSettings {
-        host: declared.host.unwrap_or_else(|| DEFAULT_HOST.to_owned()),
+        host: declared.host.unwrap_or_else(|| EMBEDDED_HOST.to_owned()),
         port: declared.port.unwrap_or(DEFAULT_PORT),
         timeout: declared.timeout.unwrap_or(DEFAULT_TIMEOUT),
         signals_map: declared.signals_map,

@@ -32,9 +32,13 @@ pub struct Plant {
     pub signal_map: Arc<SignalMap>,
 }
 
+/// The host of a plant whose automation runs in the same process, on a free port: what needs no other machine.
+pub const EMBEDDED_HOST: &str = "embedded";
+
 /// The connection settings in a plant's file; a flag on the command line overrides each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdapterSettings {
+    /// The automation's host, or [`EMBEDDED_HOST`], which is meant where the file names none.
     pub host: String,
     pub port: u16,
     /// How long an answer may take.
