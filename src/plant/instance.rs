@@ -186,6 +186,8 @@ impl<'a> Settings<'a> {
         for (descriptor, resolved) in task.kind.parameters.iter().zip(&resolved) {
             let value = match parse(descriptor, &resolved.text.value, resolved.unit, rotary) {
                 Ok(value) => value,
+                // What violates the prototype's own constraint is told once.
+                Err(_) if faults.any_at(&resolved.text.place) => continue,
                 Err(refused) => {
                     faults.push(of_refused(refused, &resolved.text.place, descriptor, self.instance));
                     continue;

@@ -87,7 +87,10 @@ pub fn load(source: &dyn Source, model: &str, kinds: &[&'static KindDescriptor])
                 let plant = plant.and_then(|file| assemble(source, file, kinds, &mut faults));
                 return match plant {
                     Some(plant) if faults.is_empty() => Ok(plant),
-                    _ => Err(ModelError::Faulty(faults)),
+                    _ => {
+                        faults.sort();
+                        Err(ModelError::Faulty(faults))
+                    }
                 };
             }
             Err(SourceError::NotFound { .. }) => {}

@@ -179,3 +179,86 @@ fn task(element: &Element, faults: &mut Faults) -> Option<TaskDeclaration> {
     super::refuse_doubles(properties.iter().map(|setting| &setting.name), "properties", faults);
     Some(TaskDeclaration { name: name?, ty: ty?.clone(), properties })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::xml::parse;
+
+    /// The example printed in the reference's section 6.3.1.
+    const PRINTED: &str = r#"
+<prototype uuid="a7315040-3e5c-42cb-b5ee-b532b7e08e5d" name="Pusher">
+  <input name="command" type="DINT">
+    <map task="PusherSensor" property="pusherCommand_RegistryIn"/>
+  </input>
+  <!-- Pusher Extended TRUE:is completely extended -->
+  <output name="limitExtended" type="BOOL">
+    <map task="PusherSensor" property="pusherLimitExtended_RegistryOut"/>
+  </output>
+  <properties>
+    <property name="pusherAxisValue" defaultValue="500" type="double">
+      <map task="PusherSensor" property="pusherAxisValue"/>
+    </property>
+    <property name="sensorColor" defaultValue="255;0;0" type="integer[]">
+      <map task="PusherSensor" property="appearanceColorRGB"/>
+    </property>
+  </properties>
+  <task type="synesis.sensors.PusherBoxSensorModule" name="PusherSensor">
+    <property name="boxDimentions" defaultValue="120 120 20" type="vector3"/>
+    <property name="pusherAxisName" defaultValue="$.Spintore.T" type="string"/>
+  </task>
+</prototype>"#;
+
+    fn read_text(text: &str) -> (Option<Avatar>, String) {
+        let mut faults = Faults::default();
+        let avatar = read(&parse("avatar.xml", text).expect("well-formed"), &mut faults);
+        (avatar, faults.to_string())
+    }
+
+    #[test]
+    fn the_references_example_is_read() {
+        let (avatar, faults) = read_text(PRINTED);
+        assert_eq!(faults, "");
+        let avatar = avatar.expect("an avatar");
+        assert_eq!(avatar.name.value, "Pusher");
+        let [command, extended] = avatar.signals.as_slice() else { panic!("two signals") };
+        assert_eq!((command.direction, extended.direction), (Direction::Command, Direction::Report));
+        assert_eq!(command.maps[0].property.value, "pusherCommand_RegistryIn");
+        let defaults: Vec<&str> = avatar.properties.iter().map(|p| p.setting.default.value.as_str()).collect();
+        assert_eq!(defaults, ["500", "255;0;0"]);
+        assert_eq!(avatar.tasks[0].ty.value, "synesis.sensors.PusherBoxSensorModule");
+        assert_eq!(avatar.tasks[0].properties[1].default.value, "$.Spintore.T");
+    }
+
+    #[test]
+    fn what_we_add_to_signals_is_read() {
+        let signal = r#"<output name="speed" type="REAL" unit="mm/s" min="-5" max="5" kind="edge" rate="lf"
+                                when="mode=position| ideal"/>"#;
+        let text = PRINTED.replace("  <properties>", &format!("{signal}<properties>"));
+        let (avatar, faults) = read_text(&text);
+        assert_eq!(faults, "");
+        let speed = avatar.expect("an avatar").signals.pop().expect("a third signal");
+        assert_eq!(speed.unit.map(|unit| unit.value.symbol), Some("mm/s"));
+        assert_eq!((speed.min.map(|min| min.value), speed.max.map(|max| max.value)), (Some(-5.0), Some(5.0)));
+        assert_eq!((speed.kind, speed.rate), (Some(Kind::Edge), RateClass::LowFrequency));
+        let when = speed.when.expect("a condition");
+        assert_eq!((when.property.as_str(), when.values), ("mode", vec!["position".to_owned(), "ideal".to_owned()]));
+    }
+
+    #[test]
+    fn what_is_wrong_is_told() {
+        let check = |from: &str, to: &str, expect: &str| {
+            let (_, faults) = read_text(&PRINTED.replacen(from, to, 1));
+            assert!(faults.contains(expect), "{to}: {faults}");
+        };
+        check("name=\"command\"", "name=\"com.mand\"", "\"com.mand\" is no identifier");
+        check("type=\"DINT\"", "type=\"DINT\" kind=\"egde\"", "did you mean \"edge\"?");
+        check("type=\"DINT\"", "type=\"DINT\" min=\"3\" max=\"1\"", "the greatest value, 1, is below the least, 3");
+        check("type=\"DINT\"", "type=\"DINT\" when=\"mode\"", "\"mode\" is no condition");
+        check("type=\"DINT\"", "typ=\"DINT\"", "<input> has no attribute \"type\"");
+        check("type=\"integer[]\"", "type=\"int[]\"", "\"int[]\" is no basic data type");
+        check("name=\"sensorColor\"", "name=\"pusherAxisValue\"", "two properties are called \"pusherAxisValue\"");
+        check("\"255;0;0\" type=\"integer[]\"", "\"red\" type=\"string\" unit=\"mm\"", "a unit for a string");
+        check("a7315040-", "a731504-", "is no uuid: expected 32 hexadecimal digits");
+    }
+}

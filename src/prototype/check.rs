@@ -33,10 +33,12 @@ pub(super) fn settings(meta: &MetaDescriptor, properties: &[Property], tasks: &[
         let known: Vec<&str> = meta.parameters.iter().map(|p| p.setting.name.value.as_str()).collect();
         let find = |name: &str| known.contains(&name).then_some("");
         if let Err(name) = substitute(&text.value, "", find) {
-            let fault = text.fault(
-                format!("{:?} refers to a parameter {name:?}, which is not there", text.value),
-                format!("expected a parameter of prototype.xml: {}", one_of(&known)),
-            );
+            let expected = match known.as_slice() {
+                [] => "expected a parameter of prototype.xml, which has none".to_owned(),
+                known => format!("expected a parameter of prototype.xml: {}", one_of(known)),
+            };
+            let found = format!("{:?} refers to a parameter {name:?}, which is not there", text.value);
+            let fault = text.fault(found, expected);
             faults.push(fault.did_you_mean(nearest(&name, known)));
         }
     }
@@ -60,10 +62,15 @@ pub(super) fn tasks(
     let mut strangers = false;
     for task in declared.into_iter().chain(logics) {
         let Some(kind) = kinds.iter().find(|kind| kind.name == task.ty.value) else {
-            let names = kinds.iter().map(|kind| kind.name);
+            let names: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
             let found = format!("there is no device kind {:?}", task.ty.value);
-            let fault = task.ty.fault(found, format!("expected {}", one_of(names.clone())));
-            faults.push(fault.did_you_mean(nearest(&task.ty.value, names)));
+            let fault = task.ty.fault(found, format!("expected {}", one_of(&names)));
+            // What all of them begin with makes none of them near.
+            let last = |name: &'static str| name.rsplit('.').next().unwrap_or(name);
+            let near =
+                nearest(task.ty.value.rsplit('.').next().unwrap_or_default(), kinds.iter().map(|kind| last(kind.name)));
+            let near = near.and_then(|near| kinds.iter().find(|kind| last(kind.name) == near));
+            faults.push(fault.did_you_mean(near.map(|kind| kind.name)));
             strangers = true;
             continue;
         };

@@ -232,3 +232,71 @@ fn logics(element: &Element, faults: &mut Faults) -> Option<Logics> {
     super::refuse_doubles(params.iter().map(|param| &param.name), "params", faults);
     Some(Logics { ty: element.required("type", faults)?.clone(), params })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prototype::setting::Relation;
+    use crate::xml::parse;
+
+    /// The examples printed in the reference's section 3.4.5, in one; port and logics after its tables.
+    const PRINTED: &str = r#"
+<prototype uuid="bad1968f-5607-4f4b-960e-c333ce324ae4" name="Cartesian" version="1">
+  <property name="displayName" value="Cartesian Robot" type="string"/>
+  <property name="vendor" value="TTS" type="string"/>
+  <property name="category" value="handling" type="string"/>
+  <property name="generator" value="builder.js" type="string"/>
+  <property name="bounds_size" value="2;1.5;1200 mm" type="double[]"/>
+  <parameter name="zSpeed" type="double" value="10">
+    <property name="constraints" value=">0" type="string"/>
+    <property name="displayName" value="Z speed [m/min]" type="string"/>
+    <property name="affectGeometry" value="false" type="boolean"/>
+  </parameter>
+  <input name="partIn" type="test.Part"><property name="frame" value="start" type="string"/></input>
+  <output name="partOut" type="test.Part"/>
+  <logics type="test.Robot">
+    <param name="speed" type="double">${zSpeed}</param>
+  </logics>
+</prototype>"#;
+
+    fn read_text(text: &str) -> (Option<MetaDescriptor>, String) {
+        let mut faults = Faults::default();
+        let meta = read(&parse("prototype.xml", text).expect("well-formed"), &mut faults);
+        (meta, faults.to_string())
+    }
+
+    #[test]
+    fn the_references_examples_are_read() {
+        let (meta, faults) = read_text(PRINTED);
+        assert_eq!(faults, "");
+        let meta = meta.expect("a meta-descriptor");
+        assert_eq!((meta.name.value.as_str(), meta.version), ("Cartesian", 1));
+        assert_eq!((meta.display_name.as_str(), meta.vendor.as_str()), ("Cartesian Robot", "TTS"));
+        assert_eq!((meta.category.as_deref(), meta.generator.as_deref()), (Some("handling"), Some("builder.js")));
+        assert_eq!((meta.bounds_center, meta.bounds_size), (None, Some([0.002, 0.0015, 1.2])));
+        let [speed] = meta.parameters.as_slice() else { panic!("one parameter") };
+        assert_eq!(speed.display_name.as_deref(), Some("Z speed [m/min]"));
+        assert!(!speed.affects_geometry);
+        assert_eq!(speed.setting.constraints[0].relation, Relation::Above);
+        assert_eq!((meta.inputs[0].frame.as_deref(), meta.outputs[0].frame.as_deref()), (Some("start"), None));
+        let logics = meta.logics.expect("logics");
+        assert_eq!((logics.ty.value.as_str(), logics.params[0].content.value.as_str()), ("test.Robot", "${zSpeed}"));
+    }
+
+    #[test]
+    fn what_is_wrong_is_told() {
+        let check = |from: &str, to: &str, expect: &str| {
+            let (_, faults) = read_text(&PRINTED.replacen(from, to, 1));
+            assert!(faults.contains(expect), "{to}: {faults}");
+        };
+        check(" version=\"1\"", "", "<prototype> has no attribute \"version\"");
+        check("version=\"1\"", "version=\"1.2\"", "\"1.2\" is no version: expected a whole number, 1 or more");
+        check("displayName", "dispalyName", "did you mean \"displayName\"?");
+        check("\"vendor\"", "\"category\"", "<prototype> has no property \"vendor\"");
+        check("2;1.5;1200 mm", "2;1.5", "\"2;1.5\" is no vector: expected three numbers");
+        check("\">0\"", "\">O\"", "\">O\" is no constraint");
+        check("value=\"false\"", "value=\"no\"", "\"no\" is no boolean");
+        check("partOut", "partIn", "two ports are called \"partIn\"");
+        check("</logics>", "</logics><logics type=\"test.Other\"/>", "a second <logics>");
+    }
+}

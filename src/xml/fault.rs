@@ -149,11 +149,16 @@ impl Fault {
         self.other.as_ref().filter(|(place, _)| place.file() != self.place.file())
     }
 
+    /// Whether what was expected is too long to stand beside the line of the file.
+    fn is_long(&self) -> bool {
+        self.expected.chars().count() > LONGEST_LABEL
+    }
+
     /// The fault in one line: file, line, column, what was found, what was expected, what to do.
     pub fn line(&self) -> String {
         let mut line = format!("{}: {}: {}", self.place, self.found, self.expected);
         if let Some((place, label)) = &self.other {
-            line.push_str(&format!("; {label} at {place}"));
+            line.push_str(&format!("; {label}: {place}"));
         }
         if let Some(help) = &self.help {
             line.push_str(&format!("; {help}"));
@@ -177,7 +182,8 @@ impl Diagnostic for Fault {
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let span = self.place.span.clone();
-        let first = LabeledSpan::new_primary_with_span(Some(self.expected.clone()), span);
+        let label = if self.is_long() { "here" } else { &self.expected };
+        let first = LabeledSpan::new_primary_with_span(Some(label.to_owned()), span);
         let second = self
             .other
             .iter()
@@ -187,15 +193,19 @@ impl Diagnostic for Fault {
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        let elsewhere = self.elsewhere().map(|(place, label)| format!("{label} at {place}"));
-        let parts: Vec<String> = elsewhere.into_iter().chain(self.help.clone()).collect();
-        (!parts.is_empty()).then(|| Box::new(parts.join("; ")) as Box<dyn fmt::Display>)
+        let elsewhere = self.elsewhere().map(|(place, label)| format!("{label}: {place}"));
+        let expected = self.is_long().then(|| self.expected.clone());
+        let parts: Vec<String> = self.help.clone().into_iter().chain(elsewhere).chain(expected).collect();
+        (!parts.is_empty()).then(|| Box::new(parts.join("\n")) as Box<dyn fmt::Display>)
     }
 }
 
 /// Everything found wrong, in the order it was found. Empty means that nothing is.
 #[derive(Clone, Debug, Default)]
 pub struct Faults(Vec<Fault>);
+
+/// Labels are not wrapped: what is longer goes below, as help.
+const LONGEST_LABEL: usize = 80;
 
 /// The most faults that are told one by one: a file that is wrong from end to end needs no thousand messages.
 const TOLD: usize = 20;
@@ -214,6 +224,23 @@ impl Faults {
         other.0.into_iter().for_each(|fault| self.push(fault));
     }
 
+    /// Puts them in the order of their files, and within a file from its start to its end.
+    pub fn sort(&mut self) {
+        let mut files: Vec<String> = Vec::new();
+        for fault in &self.0 {
+            if !files.iter().any(|file| file == fault.place.file()) {
+                files.push(fault.place.file().to_owned());
+            }
+        }
+        let rank = |fault: &Fault| files.iter().position(|file| file == fault.place.file());
+        self.0.sort_by_key(|fault| (rank(fault), fault.place.span.start));
+    }
+
+    /// Whether one of them is at `place`.
+    pub fn any_at(&self, place: &Place) -> bool {
+        self.0.iter().any(|fault| fault.place == *place)
+    }
+
     /// Whether nothing is wrong.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -229,7 +256,10 @@ impl Faults {
     pub fn render(&self, theme: GraphicalTheme, width: usize) -> String {
         let handler = GraphicalReportHandler::new_themed(theme).with_width(width);
         let mut text = String::new();
-        for fault in self.0.iter().take(TOLD) {
+        for (index, fault) in self.0.iter().take(TOLD).enumerate() {
+            if index > 0 {
+                text.push('\n');
+            }
             // Writing into a String does not fail.
             let _ = handler.render_report(&mut text, fault);
         }

@@ -4,13 +4,13 @@ use super::{Element, Faults, Located};
 
 /// The word of `known` that `word` was probably meant for; `None` if none is near.
 ///
-/// Near is at most one edit (insert, delete, replace, swap) in three letters, capitals aside.
+/// Near is at most one edit (insert, delete, replace, swap) in three letters, and one in any word; capitals aside.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let plain = word.to_lowercase();
     let distance = |candidate: &str| strsim::damerau_levenshtein(&plain, &candidate.to_lowercase());
     let near =
         known.into_iter().map(|candidate| (distance(candidate), candidate)).min_by_key(|(distance, _)| *distance);
-    near.filter(|(distance, _)| *distance <= plain.chars().count().div_ceil(3)).map(|(_, candidate)| candidate)
+    near.filter(|(distance, _)| *distance <= (plain.chars().count() / 3).max(1)).map(|(_, candidate)| candidate)
 }
 
 /// The words as an English list: `a, b or c`; `none` where there are none.
@@ -108,5 +108,29 @@ impl Element {
     /// The children called `name`.
     pub fn children_named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Element> {
         self.children.iter().filter(move |child| child.name.value == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_word_is_the_one_that_was_meant_or_none() {
+        let known = ["length", "width", "acceleration", "barrierA", "barrierB", "hf", "lf"];
+        let check = |word: &str, expect: Option<&str>| assert_eq!(nearest(word, known), expect, "{word}");
+        check("lenght", Some("length"));
+        check("Width", Some("width"));
+        check("barierA", Some("barrierA"));
+        check("hff", Some("hf"));
+        check("speed", None);
+        check("", None);
+    }
+
+    #[test]
+    fn words_are_listed_in_english() {
+        assert_eq!(one_of(["a", "b", "c"]), "a, b or c");
+        assert_eq!(one_of(["a"]), "a");
+        assert_eq!(one_of::<&str>([]), "none");
     }
 }

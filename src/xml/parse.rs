@@ -121,7 +121,8 @@ impl Tree<'_> {
             start..start + slice.len()
         };
         let mut attributes: Vec<Attribute> = Vec::new();
-        for attribute in tag.attributes() {
+        // Doubles are looked for here: the iterator stumbles over what follows one.
+        for attribute in tag.attributes().with_checks(false) {
             let attribute = match attribute {
                 Ok(attribute) => attribute,
                 Err(error) => {
@@ -132,6 +133,11 @@ impl Tree<'_> {
             };
             let name = Located::new(attribute.key.as_ref().to_owned(), &self.place(locate(attribute.key.as_ref())));
             let place = self.place(locate(&attribute.value));
+            if let Some(first) = attributes.iter().find(|known| known.name.value == name.value) {
+                let found = format!("the attribute {:?} stands twice", name.value);
+                let fault = name.fault(found, "expected each attribute once");
+                self.faults.push(fault.beside(&first.name.place, "the first"));
+            }
             if attribute.value.contains('<') {
                 let found = format!("the value of {:?} holds a <", name.value);
                 let fault = place.fault(found, "expected a closing quote before it");
@@ -163,9 +169,7 @@ impl Tree<'_> {
             AttrError::ExpectedQuote(at, quote) => {
                 word(at).fault("a value without its closing quote", format!("expected a closing {}", quote as char))
             }
-            AttrError::Duplicated(at, first) => word(at)
-                .fault("an attribute stands twice", "expected each attribute once")
-                .beside(&word(first), "the first"),
+            AttrError::Duplicated(at, _) => word(at).fault("an attribute stands twice", "expected each attribute once"),
         }
     }
 
@@ -249,4 +253,77 @@ fn bad_reference(place: &Place, found: &str) -> Fault {
     place
         .fault(format!("{found:?} holds a reference that means nothing"), "expected &amp; for an & in a text")
         .help("the references known are &lt; &gt; &amp; &quot; &apos; and &#…;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refused(text: &str, expect: &str) {
+        let faults = parse("f.xml", text).expect_err(text).to_string();
+        assert!(faults.contains(expect), "{text}: {faults}");
+    }
+
+    #[test]
+    fn every_word_knows_its_place() {
+        let text =
+            "<?xml version=\"1.0\"?>\n<!-- ü --><a\n  b = 'ö &lt; &#65;'  >\n  <c d=\"1\"/> text &amp; more\n</a>\n";
+        let root = parse("f.xml", text).expect("well-formed");
+        let at = |place: &Place| place.to_string();
+        assert_eq!((root.name.value.as_str(), at(&root.name.place).as_str()), ("a", "f.xml:2:12"));
+        let value = root.attribute("b").expect("b");
+        assert_eq!((value.value.as_str(), at(&value.place).as_str()), ("ö < A", "f.xml:3:8"));
+        assert_eq!(at(&root.attributes[0].name.place), "f.xml:3:3");
+        let child = &root.children[0];
+        assert_eq!(at(&child.name.place), "f.xml:4:4");
+        assert_eq!(at(&child.attribute("d").expect("d").place), "f.xml:4:9");
+        assert_eq!((root.text.value.as_str(), at(&root.text.place).as_str()), ("text & more", "f.xml:4:14"));
+    }
+
+    #[test]
+    fn a_byte_order_mark_moves_nothing() {
+        let root = parse("f.xml", "\u{feff}<a b=\"1\"/>").expect("well-formed");
+        assert_eq!(root.attribute("b").expect("b").place.to_string(), "f.xml:1:7");
+    }
+
+    #[test]
+    fn what_is_not_well_formed_is_refused_with_its_place() {
+        refused("", "f.xml:1:1: the file holds no element");
+        refused("<!-- a -->", "the file holds no element");
+        refused("<a>", "f.xml:1:2: <a> is not closed: expected </a>");
+        refused("<a></b>", "f.xml:1:4: </b> closes nothing: expected </a>");
+        refused("<a/></b>", "f.xml:1:5: </b> closes nothing: expected no end tag here");
+        refused("<a/><b/>", "f.xml:1:6: a second root element <b>");
+        refused("<a/>b", "f.xml:1:5: text outside of the root element");
+        refused("<a b/>", "an attribute without a value");
+        refused("<a b=c/>", "f.xml:1:6: a value without quotes");
+        refused("<a b=\"1\" b=\"2\"/>", "f.xml:1:10: the attribute \"b\" stands twice");
+        refused("<a b=\"<c d=\"/>", "the value of \"b\" holds a <");
+        refused("<a b=\"&x;\"/>", "f.xml:1:7: \"&x;\" holds a reference that means nothing");
+        refused("<a>&x;</a>", "f.xml:1:4: \"&x;\" holds a reference that means nothing");
+        refused("<a>\n<!-- -- -->\n</a>", "f.xml:2:6: a comment with -- in it");
+        refused("<a", "a tag that is not closed");
+    }
+
+    #[test]
+    fn what_makes_xml_dangerous_is_refused() {
+        refused("<!DOCTYPE a [<!ENTITY b \"cc\">]><a>&b;</a>", "f.xml:1:1: a document type stands here");
+        refused(&"<a>".repeat(100_000), "elements nest deeper than 32");
+        refused(&" ".repeat(LONGEST_BYTES + 1), "the file is longer than 16 MiB");
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn no_text_brings_it_down(text in "[<>/=\"'& ;!\\-\\[\\]?#a-cü\n]{0,60}") {
+            let _ = parse("f.xml", &text);
+        }
+
+        #[test]
+        fn what_was_escaped_reads_back(value in "[ -~ü]{0,20}") {
+            let text = format!("<a b=\"{}\"/>", crate::xml::escape(&value));
+            let root = parse("f.xml", &text).expect("well-formed");
+            proptest::prop_assert_eq!(&root.attribute("b").expect("b").value, &value);
+        }
+    }
 }
