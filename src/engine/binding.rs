@@ -1,0 +1,134 @@
+//! Between registers and ports: which signal is which device's, and the units on the wire become SI units here.
+
+use crate::signal_map::{Direction, RegisterId, SignalMap};
+use crate::value::{ElementaryType, Value};
+
+/// A port that takes commands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Target {
+    pub unit: usize,
+    pub port: usize,
+}
+
+/// A port that reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ReportPort {
+    pub port: usize,
+    pub register: RegisterId,
+    element: ElementaryType,
+    to_si: f64,
+}
+
+impl ReportPort {
+    /// The port `port` of a device, bound to `register`.
+    pub fn new(port: usize, register: RegisterId, map: &SignalMap) -> ReportPort {
+        let signal = map.signal(register);
+        ReportPort { port, register, element: signal.ty.element, to_si: signal.unit.to_si }
+    }
+
+    /// What the register holds when the device reports `number`, in SI units.
+    pub fn value(&self, number: f64) -> Value {
+        // Where no unit is changed no digit is, either.
+        let number = if self.to_si == 1.0 { number } else { number / self.to_si };
+        Value::from_f64(self.element, number)
+    }
+}
+
+/// What each register commands.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CommandTable {
+    rows: Vec<CommandRow>,
+}
+
+#[derive(Clone, Debug)]
+struct CommandRow {
+    element: ElementaryType,
+    to_si: f64,
+    is_command: bool,
+    targets: Vec<Target>,
+}
+
+impl CommandTable {
+    /// A row for every register of `map`, without targets yet.
+    pub fn new(map: &SignalMap) -> CommandTable {
+        let row = |signal: &crate::signal_map::Signal| CommandRow {
+            element: signal.ty.element,
+            to_si: signal.unit.to_si,
+            is_command: signal.direction == Direction::Command,
+            targets: Vec::new(),
+        };
+        CommandTable { rows: map.signals().iter().map(row).collect() }
+    }
+
+    /// Lets `register` command a port.
+    pub fn bind(&mut self, register: RegisterId, target: Target) {
+        self.rows[register.index()].targets.push(target);
+    }
+
+    /// What a value for `register` becomes: as the register keeps it, and as the devices take it, in SI units. `None` for a
+    /// register that takes no commands, and for what is no finite number.
+    pub fn convert(&self, register: RegisterId, value: &Value) -> Option<(Value, f64)> {
+        let row = self.rows.get(register.index()).filter(|row| row.is_command)?;
+        let number = value.to_f64().filter(|number| number.is_finite())?;
+        let kept = Value::from_f64(row.element, number);
+        let number = kept.to_f64()?;
+        Some((kept, number * row.to_si))
+    }
+
+    /// The ports that `register` commands.
+    pub fn targets(&self, register: RegisterId) -> &[Target] {
+        self.rows.get(register.index()).map_or(&[], |row| &row.targets)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal_map::{Kind, RateClass, Signal};
+    use crate::value::{SignalType, Unit};
+
+    const SPEED: RegisterId = RegisterId(0);
+    const PLACE: RegisterId = RegisterId(1);
+
+    fn map() -> SignalMap {
+        let signal = |name: &str, direction, unit: &str| Signal {
+            name: name.to_owned(),
+            ty: SignalType::scalar(ElementaryType::Real),
+            direction,
+            kind: Kind::Level,
+            rate: RateClass::HighFrequency,
+            unit: Unit::named(unit).expect("a unit"),
+            min: None,
+            max: None,
+            instance: "I".to_owned(),
+            task: "T".to_owned(),
+            property: name.to_owned(),
+        };
+        let signals = vec![signal("speed", Direction::Command, "mm/s"), signal("place", Direction::Report, "mm")];
+        SignalMap::new("p", signals).expect("two names")
+    }
+
+    fn check(value: Value, expect: Option<(Value, f64)>) {
+        assert_eq!(CommandTable::new(&map()).convert(SPEED, &value), expect);
+    }
+
+    #[test]
+    fn commands_come_in_the_wires_unit_and_type() {
+        check(Value::Real(250.0), Some((Value::Real(250.0), 0.25)));
+        check(Value::Dint(3), Some((Value::Real(3.0), 0.003)));
+        check(Value::Real(f32::NAN), None);
+        check(Value::String(Box::default()), None);
+    }
+
+    #[test]
+    fn a_reported_register_takes_no_command() {
+        let table = CommandTable::new(&map());
+        assert_eq!(table.convert(PLACE, &Value::Real(1.0)), None);
+        assert_eq!(table.convert(RegisterId(99), &Value::Real(1.0)), None);
+    }
+
+    #[test]
+    fn reports_leave_in_the_wires_unit_and_type() {
+        assert_eq!(ReportPort::new(0, PLACE, &map()).value(1.25), Value::Real(1250.0));
+    }
+}

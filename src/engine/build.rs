@@ -1,0 +1,264 @@
+//! From a plant to an engine at t = 0.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use super::binding::{CommandTable, ReportPort, Target};
+use super::floor::{Bay, BeltBody, CupsBody, Drain, Floor, PlateBody};
+use super::{Engine, Mount, Unit, UnitBody};
+use crate::device::{self, Belt, Cups, Device, Role, Surface as DeviceSurface};
+use crate::kinematics::{Along, Block, DPose3, DQuat, DVec3, FrameId, FrameTree, Shape, Surface, Upright, is_level};
+use crate::plant::{InitialPart, Instance, Plant, Pose, Task};
+use crate::signal_map::Direction;
+use crate::time::Instant;
+
+/// Why a plant cannot be run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    #[error("the step is 0: expected more than no time, as 1ms")]
+    NoStep,
+    #[error(transparent)]
+    Device(#[from] device::BuildError),
+    #[error(
+        "{instance} is tilted: parts stand upright, so that what carries, pushes or lifts them must be level; \
+         set rx and ry of its pose to 0"
+    )]
+    Tilted { instance: String },
+    #[error("{instance}: its property {property:?} names {found:?}, expected {expected}")]
+    Neighbour { instance: String, property: &'static str, found: String, expected: &'static str },
+    #[error("part {index} of the plant (counted from 1), {name}, {problem}")]
+    Part { index: usize, name: String, problem: String },
+}
+
+impl Engine {
+    /// The engine of `plant` at t = 0, all devices at rest, all commands 0 or false. `seed` is the run's: all that is random
+    /// about the plant follows from it.
+    pub fn new(plant: &Plant, step: Duration, seed: u64) -> Result<Engine, BuildError> {
+        if step.is_zero() {
+            return Err(BuildError::NoStep);
+        }
+        let map = &plant.signal_map;
+        let mut builder = Builder::default();
+        let mut commands = CommandTable::new(map);
+        let mut units: Vec<Unit> = Vec::new();
+        for instance in &plant.instances {
+            for task in &instance.tasks {
+                let mut device = device::build(task.kind, &task.parameters, &instance.name, seed)?;
+                let mut reports = Vec::new();
+                for (port, register) in task.ports.iter().enumerate() {
+                    let Some(register) = *register else { continue };
+                    if task.kind.ports[port].direction == Direction::Report {
+                        reports.push(ReportPort::new(port, register, map));
+                    } else {
+                        commands.bind(register, Target { unit: units.len(), port });
+                        // A command that is mapped is 0 or false until the automation says otherwise.
+                        device.command(port, 0.0);
+                    }
+                }
+                let body = builder.add(instance, units.len(), device.as_ref())?;
+                units.push(Unit { device, ports: task.kind.ports.len(), reports, body });
+            }
+        }
+        builder.connect(plant, &mut units)?;
+        let registers = map.signals().iter().map(|signal| signal.ty.initial()).collect();
+        let room = units.iter().map(|unit| unit.ports).max().unwrap_or(0);
+        let Builder { frames, floor, mounts, .. } = builder;
+        let mut engine = Engine {
+            step,
+            now: Instant::ZERO,
+            steps: 0,
+            units,
+            commands,
+            registers,
+            mounts,
+            frames,
+            floor,
+            scratch: vec![0.0; room],
+        };
+        engine.frames.resolve();
+        engine.place_bodies();
+        engine.put_initial(&plant.parts)?;
+        // What the bays have due at t = 0 stands there at t = 0.
+        engine.floor.put(0.0);
+        engine.sensors();
+        engine.report();
+        Ok(engine)
+    }
+
+    /// Puts the parts that stand in the plant at the start, the lowest first, so that what they stand on is there.
+    fn put_initial(&mut self, parts: &[InitialPart]) -> Result<(), BuildError> {
+        let mut blocks = Vec::new();
+        for (index, part) in parts.iter().enumerate() {
+            blocks.push((index, part, self.initial_block(index, part)?));
+        }
+        blocks.sort_by(|a, b| a.2.upright().place.z.total_cmp(&b.2.upright().place.z).then(a.0.cmp(&b.0)));
+        for (index, part, mut block) in blocks {
+            let refuse = |problem: &str| part_error(index, part, problem.to_owned());
+            let Some((height, support)) = self.floor.beneath(&block, None) else {
+                return Err(refuse("stands on nothing: put it on a conveyor, a pallet or a box"));
+            };
+            let mut upright = block.upright();
+            upright.place.z = height;
+            block.move_to(upright);
+            if !self.floor.is_free(&block) {
+                return Err(refuse("is in another part or in a plate: put it where there is room"));
+            }
+            self.floor.enter(part.kind, block, support);
+        }
+        Ok(())
+    }
+
+    fn initial_block(&self, index: usize, part: &InitialPart) -> Result<Block, BuildError> {
+        let pose = frame_of(&part.pose);
+        if !is_level(&pose) {
+            return Err(part_error(index, part, "is tilted: parts stand upright, set its rx and ry to 0".to_owned()));
+        }
+        let mut upright = Upright::from_pose(&pose);
+        if let Some(name) = &part.on {
+            let Some(belt) = self.floor.belts.iter().find(|belt| belt.name == *name) else {
+                return Err(part_error(index, part, format!("stands on {name:?}, which is no conveyor of the plant")));
+            };
+            let along = Along { station: part.pose.x, offset: part.pose.y };
+            let (place, heading) = belt.surface.at(along);
+            upright.place = place.extend(belt.surface.height() + part.pose.z);
+            upright.yaw += heading;
+        }
+        Ok(Block::new(DVec3::from_array(part.size), upright))
+    }
+}
+
+fn part_error(index: usize, part: &InitialPart, problem: String) -> BuildError {
+    let kind = format!("{:?}", part.kind).to_lowercase();
+    let Pose { x, y, z, .. } = part.pose;
+    let of = part.on.as_ref().map(|name| format!(" of {name}")).unwrap_or_default();
+    BuildError::Part { index: index + 1, name: format!("a {kind} at x {x}, y {y}, z {z}{of}"), problem }
+}
+
+/// A pose of the plant's file: turned about the fixed x, y and z axes, in this order.
+fn frame_of(pose: &Pose) -> DPose3 {
+    let about = DQuat::from_rotation_z(pose.rz) * DQuat::from_rotation_y(pose.ry) * DQuat::from_rotation_x(pose.rx);
+    DPose3::from_parts(DVec3::new(pose.x, pose.y, pose.z), about)
+}
+
+/// Collects the bodies of the floor.
+#[derive(Default)]
+struct Builder {
+    frames: FrameTree,
+    floor: Floor,
+    mounts: Vec<Mount>,
+    belts: BTreeMap<String, usize>,
+    /// The units of robots, and the frames of their tools.
+    tools: BTreeMap<String, (usize, FrameId)>,
+}
+
+impl Builder {
+    /// Adds what a device is to the parts. What needs a neighbour waits for [`Builder::connect`].
+    fn add(&mut self, instance: &Instance, unit: usize, device: &dyn Device) -> Result<UnitBody, BuildError> {
+        let pose = frame_of(&instance.pose);
+        let role = device.role();
+        if !matches!(role, Role::Apart | Role::Makes(_) | Role::Takes(_)) && !is_level(&pose) {
+            return Err(BuildError::Tilted { instance: instance.name.clone() });
+        }
+        Ok(match role {
+            Role::Carries(belt) => {
+                self.belts.insert(instance.name.clone(), self.floor.belts.len());
+                self.floor.belts.push(belt_body(&instance.name, &pose, belt));
+                UnitBody::Belt(self.floor.belts.len() - 1)
+            }
+            Role::Pushes(plate) => {
+                self.floor.plates.push(PlateBody::new(&instance.name, &pose, plate));
+                UnitBody::Plate(self.floor.plates.len() - 1)
+            }
+            Role::Moves(_) => {
+                let base = self.frames.add(None, pose);
+                let tool = self.frames.add(Some(base), DPose3::IDENTITY);
+                self.tools.insert(instance.name.clone(), (unit, tool));
+                UnitBody::Robot(tool)
+            }
+            Role::Apart | Role::Holds(_) | Role::Makes(_) | Role::Takes(_) => UnitBody::Apart,
+        })
+    }
+
+    /// Adds what hangs from a robot or serves a belt, now that all robots and belts are there.
+    fn connect(&mut self, plant: &Plant, units: &mut [Unit]) -> Result<(), BuildError> {
+        let tasks = plant.instances.iter().flat_map(|instance| instance.tasks.iter().map(move |task| (instance, task)));
+        for (index, ((instance, task), unit)) in tasks.zip(units).enumerate() {
+            match unit.device.role() {
+                Role::Holds(cups) => unit.body = self.add_cups(instance, task, index, cups)?,
+                Role::Makes(source) => {
+                    let belt = self.belt_of(instance, task)?;
+                    self.floor.bays.push(Bay { belt, source: source.clone(), made: 0 });
+                    unit.body = UnitBody::Bay(self.floor.bays.len() - 1);
+                }
+                Role::Takes(sink) => {
+                    let belt = self.belt_of(instance, task)?;
+                    self.floor.drains.push(Drain { name: instance.name.clone(), belt, sink: *sink });
+                    unit.body = UnitBody::Drain;
+                }
+                _ => {}
+            }
+        }
+        self.floor.connect_belts();
+        Ok(())
+    }
+
+    fn add_cups(
+        &mut self,
+        instance: &Instance,
+        task: &Task,
+        gripper: usize,
+        cups: &Cups,
+    ) -> Result<UnitBody, BuildError> {
+        let robot = task.parameters.text("robot");
+        let offset = DPose3::from_translation(DVec3::from_array(cups.offset));
+        let frame = if robot.is_empty() {
+            self.frames.add(None, frame_of(&instance.pose) * offset)
+        } else {
+            let expected = "a CartesianRobot of the plant";
+            let found = self.tools.get(robot).copied();
+            let (robot, tool) = found.ok_or_else(|| neighbour(instance, "robot", robot, expected))?;
+            if let Some(suction) = task.kind.port("suctionOn") {
+                let register = task.ports.get(suction).copied().flatten();
+                self.mounts.push(Mount { robot, gripper, suction, register, is_closed: false });
+            }
+            self.frames.add(Some(tool), offset)
+        };
+        self.floor.cups.push(CupsBody {
+            name: instance.name.clone(),
+            rim: *self.frames.world(frame),
+            reach: cups.reach,
+            vacuum: false,
+            always_sealed: cups.always_sealed,
+            held: None,
+        });
+        Ok(UnitBody::Cups(self.floor.cups.len() - 1, frame))
+    }
+
+    fn belt_of(&self, instance: &Instance, task: &Task) -> Result<usize, BuildError> {
+        let name = task.parameters.text("belt");
+        let expected = "a StraightConveyor or ConveyorCurve of the plant";
+        self.belts.get(name).copied().ok_or_else(|| neighbour(instance, "belt", name, expected))
+    }
+}
+
+fn neighbour(instance: &Instance, property: &'static str, found: &str, expected: &'static str) -> BuildError {
+    BuildError::Neighbour { instance: instance.name.clone(), property, found: found.to_owned(), expected }
+}
+
+fn belt_body(name: &str, pose: &DPose3, belt: &Belt) -> BeltBody {
+    let shape = match belt.surface {
+        DeviceSurface::Straight { length, width } => Shape::Straight { length, width },
+        DeviceSurface::Curve { radius, angle, width } => Shape::Curve { radius, angle, width },
+    };
+    let surface = Surface::new(shape, pose);
+    let beams = belt.barriers.map(|at| at.map(|station| surface.beam(station, belt.beam_height)));
+    BeltBody {
+        name: name.to_owned(),
+        surface,
+        transfer: belt.transfer,
+        displacement: 0.0,
+        neighbours: Vec::new(),
+        open: [true; 2],
+        beams,
+    }
+}

@@ -1,0 +1,248 @@
+//! The engine: a plant's devices and parts, moved by fixed steps of simulated time.
+//!
+//! One [`Engine::tick`] is one step, in phases: **actuators** take the commands, the state as it is now becomes the **report**,
+//! **joints** move, **parts** move with them, **sensors** look at what came of it. Step k takes the commands with t ≤ kT and
+//! reports the state at kT, immediate booleans already following their command; then it moves over [kT, (k+1)T).
+//!
+//! Invariant: no clock, no IO, no thread, no hash map to iterate. The same plant, step, seed and the same inputs at the same
+//! steps give bit-identical states ([`Engine::state_hash`]), in whatever time mode the engine is run.
+
+#[cfg(test)]
+mod bench;
+mod binding;
+mod build;
+mod floor;
+mod hash;
+#[cfg(test)]
+mod tests;
+
+use std::time::Duration;
+
+pub use build::BuildError;
+pub use floor::{Incident, IncidentKind, PartCounts};
+
+use crate::device::{Device, Role};
+use crate::kinematics::{DPose3, DQuat, DVec3, FrameId, FrameTree};
+use crate::plant::PartKind;
+use crate::signal_map::RegisterId;
+use crate::time::Instant;
+use crate::value::Value;
+use binding::{CommandTable, ReportPort};
+use floor::Floor;
+
+/// A plant that runs.
+pub struct Engine {
+    step: Duration,
+    now: Instant,
+    steps: u64,
+    units: Vec<Unit>,
+    commands: CommandTable,
+    registers: Vec<Value>,
+    /// Grippers that a robot's `grip` closes.
+    mounts: Vec<Mount>,
+    frames: FrameTree,
+    floor: Floor,
+    /// Room for one device's reports.
+    scratch: Vec<f64>,
+}
+
+/// A device with what binds it to the registers and to the floor.
+struct Unit {
+    device: Box<dyn Device>,
+    ports: usize,
+    reports: Vec<ReportPort>,
+    body: UnitBody,
+}
+
+/// A gripper that hangs from a robot. It draws while its own `suctionOn` is true or the robot's `grip` is.
+#[derive(Clone, Copy, Debug)]
+struct Mount {
+    robot: usize,
+    gripper: usize,
+    /// Its port for suction, and the register that is mapped to it.
+    suction: usize,
+    register: Option<RegisterId>,
+    is_closed: bool,
+}
+
+/// What a device is on the floor: an index into the list of its kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum UnitBody {
+    Apart,
+    Belt(usize),
+    Plate(usize),
+    /// The frame of its tool.
+    Robot(FrameId),
+    /// The frame of its rim.
+    Cups(usize, FrameId),
+    Bay(usize),
+    Drain,
+}
+
+/// A part, as it is now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartState {
+    /// Counted from 1 in the order in which parts came in; never given twice in a run.
+    pub number: u64,
+    pub kind: PartKind,
+    /// Length, width, height, m.
+    pub size: [f64; 3],
+    /// The centre of its bottom face in the world, m.
+    pub place: [f64; 3],
+    /// Where its length points, from the world's x about z, rad.
+    pub yaw: f64,
+}
+
+impl Engine {
+    /// The step of simulated time.
+    pub fn step(&self) -> Duration {
+        self.step
+    }
+
+    /// The simulated time of the next tick; its report is stamped with it.
+    pub fn now(&self) -> Instant {
+        self.now
+    }
+
+    /// How many ticks there were.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// One step. Takes `inputs` in their order, each as its signal has it on the wire; a value for a signal that the plant
+    /// reports, or one that is no number, is passed over (the session refuses those). Returns all registers, by
+    /// [`RegisterId`], as they are at [`Engine::now`] before the motion.
+    pub fn tick(&mut self, inputs: &[(RegisterId, Value)]) -> &[Value] {
+        self.actuators(inputs);
+        self.report();
+        self.joints();
+        self.parts_phase();
+        self.sensors();
+        self.steps += 1;
+        &self.registers
+    }
+
+    /// All registers, by [`RegisterId`], as of the last tick; before the first, those of a plant at rest.
+    pub fn registers(&self) -> &[Value] {
+        &self.registers
+    }
+
+    /// How many parts came, left, and were lost.
+    pub fn counts(&self) -> PartCounts {
+        self.floor.counts()
+    }
+
+    /// All parts, as they are after the last tick.
+    pub fn parts(&self) -> impl Iterator<Item = PartState> {
+        self.floor.parts.iter().map(|(_, part)| PartState {
+            number: part.number,
+            kind: part.kind,
+            size: part.block.size().to_array(),
+            place: part.block.upright().place.to_array(),
+            yaw: part.block.upright().yaw,
+        })
+    }
+
+    /// What went wrong with parts since this was asked last, the first 256 of it.
+    pub fn take_incidents(&mut self) -> Vec<Incident> {
+        std::mem::take(&mut self.floor.tally.incidents)
+    }
+
+    fn actuators(&mut self, inputs: &[(RegisterId, Value)]) {
+        for (register, value) in inputs {
+            let Some((value, number)) = self.commands.convert(*register, value) else { continue };
+            self.registers[register.index()] = value;
+            for target in self.commands.targets(*register) {
+                self.units[target.unit].device.command(target.port, number);
+            }
+        }
+        self.close_mounted();
+    }
+
+    /// Hands the robots' `grip` on to the grippers that hang from them.
+    fn close_mounted(&mut self) {
+        for index in 0..self.mounts.len() {
+            let Mount { robot, gripper, suction, register, is_closed } = self.mounts[index];
+            let grips = matches!(self.units[robot].device.role(), Role::Moves(tool) if tool.grip);
+            if grips || is_closed {
+                let own = register.is_some_and(|register| self.registers[register.index()] == Value::Bool(true));
+                self.units[gripper].device.command(suction, f64::from(own || grips));
+                self.mounts[index].is_closed = grips;
+            }
+        }
+    }
+
+    fn report(&mut self) {
+        for unit in &self.units {
+            if unit.reports.is_empty() {
+                continue;
+            }
+            let reports = &mut self.scratch[..unit.ports];
+            unit.device.report(reports);
+            for port in &unit.reports {
+                self.registers[port.register.index()] = port.value(reports[port.port]);
+            }
+        }
+    }
+
+    fn joints(&mut self) {
+        let seconds = self.step.as_secs_f64();
+        for unit in &mut self.units {
+            unit.device.advance(seconds);
+        }
+        self.now += self.step;
+        self.place_bodies();
+    }
+
+    /// Tells the floor where the devices are now.
+    fn place_bodies(&mut self) {
+        let mut has_tool = false;
+        for unit in &self.units {
+            match (unit.device.role(), unit.body) {
+                (Role::Carries(belt), UnitBody::Belt(index)) => {
+                    self.floor.belts[index].displacement = belt.displacement;
+                }
+                (Role::Pushes(plate), UnitBody::Plate(index)) => {
+                    self.floor.plates[index].set(plate.position, plate.displacement, plate.size[0]);
+                }
+                (Role::Moves(tool), UnitBody::Robot(frame)) => {
+                    let place = DVec3::from_array(tool.position);
+                    let local = DPose3::from_parts(place, DQuat::from_rotation_z(tool.rotation));
+                    self.frames.set_local(frame, local);
+                    has_tool = true;
+                }
+                (Role::Holds(cups), UnitBody::Cups(index, _)) => self.floor.cups[index].vacuum = cups.vacuum,
+                (Role::Makes(source), UnitBody::Bay(index)) => {
+                    let due = &mut self.floor.bays[index].source.due;
+                    due.clear();
+                    due.extend_from_slice(&source.due);
+                }
+                _ => {}
+            }
+        }
+        if has_tool {
+            self.frames.resolve();
+        }
+        for unit in &self.units {
+            if let UnitBody::Cups(index, frame) = unit.body {
+                self.floor.cups[index].rim = *self.frames.world(frame);
+            }
+        }
+    }
+
+    fn parts_phase(&mut self) {
+        self.floor.advance(self.now, self.step.as_secs_f64());
+    }
+
+    fn sensors(&mut self) {
+        for unit in &mut self.units {
+            let surroundings = match unit.body {
+                UnitBody::Belt(index) => self.floor.at_belt(index),
+                UnitBody::Plate(index) => self.floor.at_plate(index),
+                UnitBody::Cups(index, _) => self.floor.about_cups(index),
+                _ => continue,
+            };
+            unit.device.sense(&surroundings);
+        }
+    }
+}
