@@ -55,6 +55,7 @@ impl Bench {
             prototype: kind.name.to_owned(),
             pose: Pose { x, y, z, rz, ..Pose::default() },
             tasks: vec![Task { name: "Law".to_owned(), kind, parameters: parameters(kind, set), ports }],
+            effects: Vec::new(),
         });
         self
     }

@@ -1,7 +1,8 @@
 //! Between registers and ports: which signal is which device's, and the units on the wire become SI units here.
 
+use crate::prototype::quantity::{from_si, to_si};
 use crate::signal_map::{Direction, RegisterId, SignalMap};
-use crate::value::{ElementaryType, Value};
+use crate::value::{ElementaryType, Unit, Value};
 
 /// A port that takes commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,20 +17,20 @@ pub(super) struct ReportPort {
     pub port: usize,
     pub register: RegisterId,
     element: ElementaryType,
-    to_si: f64,
+    unit: Unit,
 }
 
 impl ReportPort {
     /// The port `port` of a device, bound to `register`.
     pub fn new(port: usize, register: RegisterId, map: &SignalMap) -> ReportPort {
         let signal = map.signal(register);
-        ReportPort { port, register, element: signal.ty.element, to_si: signal.unit.to_si }
+        ReportPort { port, register, element: signal.ty.element, unit: signal.unit }
     }
 
     /// What the register holds when the device reports `number`, in SI units.
     pub fn value(&self, number: f64) -> Value {
-        // Where no unit is changed no digit is, either.
-        let number = if self.to_si == 1.0 { number } else { number / self.to_si };
+        // Where no unit is changed, no digit is.
+        let number = if self.unit.to_si == 1.0 { number } else { from_si(number, self.unit) };
         Value::from_f64(self.element, number)
     }
 }
@@ -43,7 +44,7 @@ pub(super) struct CommandTable {
 #[derive(Clone, Debug)]
 struct CommandRow {
     element: ElementaryType,
-    to_si: f64,
+    unit: Unit,
     is_command: bool,
     targets: Vec<Target>,
 }
@@ -53,7 +54,7 @@ impl CommandTable {
     pub fn new(map: &SignalMap) -> CommandTable {
         let row = |signal: &crate::signal_map::Signal| CommandRow {
             element: signal.ty.element,
-            to_si: signal.unit.to_si,
+            unit: signal.unit,
             is_command: signal.direction == Direction::Command,
             targets: Vec::new(),
         };
@@ -72,7 +73,7 @@ impl CommandTable {
         let number = value.to_f64().filter(|number| number.is_finite())?;
         let kept = Value::from_f64(row.element, number);
         let number = kept.to_f64()?;
-        Some((kept, number * row.to_si))
+        Some((kept, if row.unit.to_si == 1.0 { number } else { to_si(number, row.unit) }))
     }
 
     /// The ports that `register` commands.
