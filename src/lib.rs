@@ -14,6 +14,7 @@ pub mod prototype;
 pub mod session;
 pub mod signal_map;
 pub mod time;
+pub mod trace;
 pub mod value;
 pub mod wire;
 pub mod xml;

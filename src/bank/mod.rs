@@ -42,4 +42,7 @@ mod words;
 pub use sides::{CAPACITY, Changes, Full, IoSide, Overrun, SimulationSide, Snapshot, new};
 
 #[cfg(test)]
+pub(crate) use sides::with_capacity;
+
+#[cfg(test)]
 mod tests;
