@@ -3,7 +3,7 @@
 use kinetwin::device::KINDS;
 use kinetwin::plant::embedded::Embedded;
 use kinetwin::plant::{EffectPlace, ModelError, Parameter, ParameterValue, PartKind, Plant, load};
-use kinetwin::prototype::source::{Layered, Memory};
+use kinetwin::prototype::source::{Layered, Memory, Source};
 use kinetwin::signal_map::{Kind, RateClass, SignalMap};
 use proptest::prelude::*;
 
@@ -146,6 +146,7 @@ fn a_signal_takes_from_its_port_what_it_does_not_say() {
     assert_eq!((c.min, c.max), (Some(1.0), Some(2.0)));
     // Nothing takes or gives it: the automation has it all the same.
     assert_eq!((d.kind, d.unit.symbol, d.task.as_str()), (Kind::Level, "mm", ""));
+    assert_eq!(plant.remarks(), ["L1.G.d leads nowhere: it has no <map> in its avatar"]);
     let ports = |task: usize| plant.instances[0].tasks[task].ports.iter().flatten().map(|id| id.0).collect::<Vec<_>>();
     assert_eq!((ports(0), ports(1)), (vec![0, 1], vec![2]));
 }
@@ -320,18 +321,24 @@ fn a_prototype_that_nothing_fits_is_refused() {
 }
 
 proptest! {
-    /// Whatever somebody does to a file, what comes back is a plant or an error.
+    /// Whatever somebody does to a file, what comes back is a plant or an error that names the file.
     #[test]
-    fn no_edit_of_a_file_brings_the_loader_down(at in 0usize..4000, remove in 0usize..40, insert in "[ -~]{0,6}") {
-        let rig = Layered(Memory::default(), Embedded);
-        let text = kinetwin::prototype::source::Source::read(&rig, "models/rig/plant.xml").expect("the rig");
-        let mut start = at.min(text.len());
-        while !text.is_char_boundary(start) { start -= 1; }
-        let mut end = (start + remove).min(text.len());
-        while !text.is_char_boundary(end) { end += 1; }
-        let edited = format!("{}{insert}{}", &text[..start], &text[end..]);
-        if let Err(error) = load(&files(&edited, None, &[]), "mine", KINDS) {
-            prop_assert!(error.to_string().contains("mine/plant.xml:"), "{}", error);
+    fn no_edit_of_a_file_brings_the_loader_down(
+        path in prop::sample::select(vec![
+            "models/rig/plant.xml",
+            "models/catalogue/ServoAxis/avatar.xml",
+            "models/catalogue/LoadingBay/prototype.xml",
+        ]),
+        at in 0usize..6000, remove in 0usize..40, insert in "[ -~]{0,6}",
+    ) {
+        let text = Embedded.read(path).expect("a file of ours");
+        let characters: Vec<char> = text.chars().collect();
+        let (start, end) = (at % characters.len(), (at % characters.len() + remove).min(characters.len()));
+        let edited: String =
+            characters[..start].iter().copied().chain(insert.chars()).chain(characters[end..].iter().copied()).collect();
+        let source = Layered(Memory([(path.to_owned(), edited)].into()), Embedded);
+        if let Err(error) = load(&source, "models/rig", KINDS) {
+            prop_assert!(error.to_string().contains(".xml:"), "{}", error);
         }
     }
 }

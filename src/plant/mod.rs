@@ -32,6 +32,15 @@ pub struct Plant {
     pub signal_map: Arc<SignalMap>,
 }
 
+impl Plant {
+    /// What is no mistake and may yet not be meant, one line each: signals that the automation has and nothing in the
+    /// plant takes or gives.
+    pub fn remarks(&self) -> Vec<String> {
+        let unmapped = self.signal_map.signals().iter().filter(|signal| signal.task.is_empty());
+        unmapped.map(|signal| format!("{} leads nowhere: it has no <map> in its avatar", signal.name)).collect()
+    }
+}
+
 /// The host of a plant whose automation runs in the same process, on a free port: what needs no other machine.
 pub const EMBEDDED_HOST: &str = "embedded";
 
