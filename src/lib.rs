@@ -6,6 +6,7 @@ pub mod adapter;
 pub mod automation;
 pub mod bank;
 pub mod device;
+pub mod effect;
 pub mod engine;
 pub mod kinematics;
 pub mod pace;

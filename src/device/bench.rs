@@ -8,7 +8,7 @@ use crate::prototype::kind::{KindDescriptor, ParameterDescriptor, ParameterType}
 
 /// A device alone.
 pub struct Bench {
-    kind: &'static KindDescriptor,
+    pub kind: &'static KindDescriptor,
     pub device: Box<dyn Device>,
 }
 
@@ -70,7 +70,7 @@ impl Bench {
     }
 
     /// What the device reports there now.
-    pub fn report(&self, port: &str) -> f64 {
+    pub fn report(&mut self, port: &str) -> f64 {
         let mut reports = vec![f64::NAN; self.kind.ports.len()];
         self.device.report(&mut reports);
         reports[self.kind.port(port).expect(port)]
@@ -100,11 +100,11 @@ fn every_kind_stands_still_and_reports_every_port_it_has() {
     for kind in KINDS {
         let set: &[_] = if kind.parameter("belt").is_some() { &[("belt", "Belt")] } else { &[] };
         let mut bench = Bench::new(kind.name, set);
-        let all = |bench: &Bench| kind.ports.iter().map(|port| bench.report(port.name)).collect::<Vec<_>>();
-        let before = all(&bench);
+        let all = |bench: &mut Bench| kind.ports.iter().map(|port| bench.report(port.name)).collect::<Vec<_>>();
+        let before = all(&mut bench);
         bench.device.advance(3.0);
         bench.device.sense(&Surroundings::default());
-        for (port, (before, after)) in kind.ports.iter().zip(before.iter().zip(all(&bench))) {
+        for (port, (before, after)) in kind.ports.iter().zip(before.iter().zip(all(&mut bench))) {
             let reported = port.direction == crate::signal_map::Direction::Report;
             assert_eq!(reported, before.is_finite(), "{} {}", kind.name, port.name);
             assert!(!reported || *before == after, "{} {} moves by itself", kind.name, port.name);

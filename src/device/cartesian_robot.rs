@@ -1,7 +1,9 @@
 //! `kinetwin.CartesianRobot`: three linear axes and one rotary, each on its own trapezoidal profile.
 
-use crate::device::law::profile::{Limits, Profile};
+use crate::device::axis::Axis;
+use crate::device::law::profile::Limits;
 use crate::device::law::{SAME_VALUE, STANDSTILL};
+use crate::device::path::{Motion, Stages};
 use crate::device::table::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, FASTEST, LEAST, LENGTH, LONGEST_M, STEEPEST, VELOCITY,
     indicator, measure, number, switch, target,
@@ -65,9 +67,9 @@ const CARTESIAN_ARRIVED: usize = 5;
 const POSITIONS: usize = 6;
 
 /// A robot with its axes X, Y, Z, R.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct CartesianRobot {
-    axes: [Profile; 4],
+    axes: [Axis; 4],
     /// How far each may be from its target and have arrived, m, m, m, rad.
     tolerances: [f64; 4],
     tool: Tool,
@@ -82,7 +84,7 @@ pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
         ("maxVelocityR", "maxAccelerationR"),
     ];
     let axes = LIMITS.map(|(velocity, acceleration)| {
-        Profile::new(Limits { velocity: parameters.number(velocity), acceleration: parameters.number(acceleration) })
+        Axis::new(Limits { velocity: parameters.number(velocity), acceleration: parameters.number(acceleration) })
     });
     let way = parameters.number("arrivedTolerance");
     let tolerances = [way, way, way, parameters.number("arrivedToleranceR")];
@@ -93,7 +95,8 @@ impl CartesianRobot {
     /// Every axis within its tolerance of the latest target, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
     fn arrived(&self) -> bool {
         self.axes.iter().zip(self.tolerances).all(|(axis, tolerance)| {
-            (axis.position() - axis.target()).abs() <= tolerance + SAME_VALUE && axis.velocity().abs() < STANDSTILL
+            let Motion { position, velocity } = axis.motor();
+            (position - axis.target()).abs() <= tolerance + SAME_VALUE && velocity.abs() < STANDSTILL
         })
     }
 }
@@ -112,14 +115,14 @@ impl Device for CartesianRobot {
         for axis in &mut self.axes {
             axis.advance(seconds);
         }
-        let [x, y, z, rotation] = self.axes.each_ref().map(Profile::position);
+        let [x, y, z, rotation] = self.axes.each_ref().map(|axis| axis.load().position);
         self.tool = Tool { position: [x, y, z], rotation, grip: self.tool.grip };
     }
 
-    fn report(&self, reports: &mut [f64]) {
+    fn report(&mut self, reports: &mut [f64]) {
         reports[CARTESIAN_ARRIVED] = f64::from(self.arrived());
         for (report, axis) in reports[POSITIONS..].iter_mut().zip(&self.axes) {
-            *report = axis.position();
+            *report = axis.load().position;
         }
     }
 
@@ -128,6 +131,19 @@ impl Device for CartesianRobot {
             axis.state(visit);
         }
         visit(f64::from(self.tool.grip));
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
+
+    /// The components are the axes X, Y, Z, R, also by the names of their signals.
+    fn stages(&mut self, component: Option<&str>) -> Option<&mut Stages> {
+        let name = component?;
+        let axis = ["X", "Y", "Z", "R"].iter().position(|axis| {
+            name == *axis || name.strip_suffix("Target") == Some(axis) || name.strip_prefix("actualPos") == Some(axis)
+        })?;
+        Some(&mut self.axes[axis].stages)
     }
 
     fn role(&self) -> Role<'_> {

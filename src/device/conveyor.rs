@@ -1,9 +1,10 @@
 //! What straight and curved conveyors have in common: their signals, their drive, their light barriers.
 
-use crate::device::law::drive::{Drive, DriveSettings};
+use crate::device::driven::Driven;
+use crate::device::law::drive::DriveSettings;
 use crate::device::law::ramp::Slopes;
-use crate::device::law::sum::Sum;
 use crate::device::law::{direction, moves};
+use crate::device::path::{Moment, Stages};
 use crate::device::table::{
     ACCELERATION, LEAST, LENGTH, LONGEST_M, LONGEST_S, STEEPEST, TIME, VELOCITY, choice, code, indicator, measure,
     number, option, state, target,
@@ -84,14 +85,12 @@ pub(super) const fn barrier(name: &'static str, default: &'static str) -> Parame
 }
 
 /// A conveyor with its drive and its belt.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Conveyor {
     velocity_target: f64,
     motor_direction: f64,
-    drive: Drive,
+    drive: Driven,
     belt: Belt,
-    /// How far the belt has moved since the start, m.
-    travel: Sum,
     beams: [bool; 2],
 }
 
@@ -118,9 +117,8 @@ impl Conveyor {
         Ok(Conveyor {
             velocity_target: 0.0,
             motor_direction: 0.0,
-            drive: Drive::new(drive_settings(parameters)),
+            drive: Driven::new(drive_settings(parameters)),
             belt,
-            travel: Sum::default(),
             beams: [false; 2],
         })
     }
@@ -157,13 +155,14 @@ impl Device for Conveyor {
     fn advance(&mut self, seconds: f64) {
         // Actuator and mechanics.
         let way = self.drive.advance(seconds);
-        // Transmission: the belt follows the drum.
-        self.belt.displacement = way;
-        self.belt.velocity = self.drive.velocity();
-        self.travel.add(way);
+        // Transmission: the belt follows the drum. Process: the parts follow the belt.
+        let before = self.belt.velocity;
+        self.belt.velocity = self.drive.load().velocity;
+        let moment = Moment { span: seconds, ..self.drive.stages.moment() };
+        self.belt.displacement = self.drive.stages.process.carried(way, self.belt.velocity, before, moment);
     }
 
-    fn report(&self, reports: &mut [f64]) {
+    fn report(&mut self, reports: &mut [f64]) {
         let velocity = self.drive.velocity();
         reports[VELOCITY_ACTUAL] = velocity;
         reports[DRIVE_ENABLED] = f64::from(self.drive.ready());
@@ -178,8 +177,15 @@ impl Device for Conveyor {
         visit(self.motor_direction);
         self.drive.state(visit);
         visit(self.belt.displacement);
-        self.travel.state(visit);
         self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
+
+    fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
+        Some(&mut self.drive.stages)
     }
 
     fn role(&self) -> Role<'_> {

@@ -2,9 +2,9 @@
 
 use crate::device::Device;
 use crate::device::conveyor::drive_settings;
-use crate::device::law::drive::Drive;
+use crate::device::driven::Driven;
 use crate::device::law::encoder::Encoder;
-use crate::device::law::sum::Sum;
+use crate::device::path::Stages;
 use crate::device::table::{
     ANGULAR_ACCELERATION, ANGULAR_VELOCITY, LEAST, LONGEST_S, STEEPEST, TIME, counter, indicator, integer, measure,
     number, option, switch, target,
@@ -53,13 +53,11 @@ const SPEED_ACTUAL: usize = 3;
 const INVERTER_READY: usize = 4;
 
 /// A motor with its inverter and its encoder.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct EncoderMotor {
     speed_target: f64,
     enable: bool,
-    drive: Drive,
-    /// Angle of the shaft since the start, rad.
-    angle: Sum,
+    drive: Driven,
     encoder: Encoder,
 }
 
@@ -70,8 +68,8 @@ pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
         counts_per_revolution: parameters.integer("countsPerRevolution") as f64,
         bits: Some(bits).filter(|bits| *bits > 0),
     };
-    let drive = Drive::new(drive_settings(parameters));
-    Box::new(EncoderMotor { speed_target: 0.0, enable: false, drive, angle: Sum::default(), encoder })
+    let drive = Driven::new(drive_settings(parameters));
+    Box::new(EncoderMotor { speed_target: 0.0, enable: false, drive, encoder })
 }
 
 impl Device for EncoderMotor {
@@ -85,12 +83,12 @@ impl Device for EncoderMotor {
     }
 
     fn advance(&mut self, seconds: f64) {
-        // Actuator and mechanics; the encoder sits on the shaft.
-        self.angle.add(self.drive.advance(seconds));
+        // Actuator and mechanics; the encoder sits on the load's side of the shaft.
+        self.drive.advance(seconds);
     }
 
-    fn report(&self, reports: &mut [f64]) {
-        reports[ENCODER] = self.encoder.count(self.angle.value());
+    fn report(&mut self, reports: &mut [f64]) {
+        reports[ENCODER] = self.encoder.count(self.drive.load().position);
         reports[SPEED_ACTUAL] = self.drive.velocity();
         reports[INVERTER_READY] = f64::from(self.drive.ready());
     }
@@ -98,7 +96,14 @@ impl Device for EncoderMotor {
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         visit(self.speed_target);
         self.drive.state(visit);
-        self.angle.state(visit);
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
+
+    fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
+        Some(&mut self.drive.stages)
     }
 }
 

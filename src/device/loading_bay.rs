@@ -63,7 +63,7 @@ pub static KIND: KindDescriptor = KindDescriptor {
 };
 
 /// A bay with its schedule.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct LoadingBay {
     schedule: Schedule,
     source: Source,
@@ -113,10 +113,14 @@ impl Device for LoadingBay {
         self.schedule.advance(seconds, &mut self.source.due);
     }
 
-    fn report(&self, _reports: &mut [f64]) {}
+    fn report(&mut self, _reports: &mut [f64]) {}
 
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         self.schedule.state(visit);
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
     }
 
     fn role(&self) -> Role<'_> {

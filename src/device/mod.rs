@@ -4,21 +4,27 @@
 //! move by some seconds, and asks for its reports. It may be moved by any span, not only by the engine's step: a
 //! diagnosis applies commands at their recorded instants and samples reports at theirs.
 
+mod axis;
 #[cfg(test)]
-mod bench;
+pub(crate) mod bench;
 mod cartesian_robot;
 mod conveyor;
 mod conveyor_curve;
+mod cylinder;
+mod driven;
 mod encoder_motor;
 pub mod law;
 mod loading_bay;
+pub mod path;
 mod pusher;
 mod servo_axis;
+mod servo_path;
 mod straight_conveyor;
 mod suction_cap_gripper;
 mod table;
 mod unloading_bay;
 
+use self::path::Stages;
 use crate::plant::{Parameters, PartKind};
 use crate::prototype::kind::KindDescriptor;
 
@@ -101,14 +107,29 @@ pub trait Device: Send {
 
     /// Writes the state as it is now into the report ports' places of `reports`, which has one place for every port of
     /// the kind; in SI units, BOOL as 0 or 1. What follows its command at once already follows it here.
-    fn report(&self, reports: &mut [f64]);
+    fn report(&mut self, reports: &mut [f64]);
 
     /// Gives every number of the state to `visit`, in an order that never changes: for the state's hash.
     fn state(&self, visit: &mut dyn FnMut(f64));
 
+    /// A copy with its state.
+    fn boxed(&self) -> Box<dyn Device>;
+
+    /// Where effects inside the device are put: the stages of the component so called, or of the whole device. `None`
+    /// where there is no such component, or nothing inside that an effect could act on.
+    fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
+        None
+    }
+
     /// What it is to the parts.
     fn role(&self) -> Role<'_> {
         Role::Apart
+    }
+}
+
+impl Clone for Box<dyn Device> {
+    fn clone(&self) -> Self {
+        self.boxed()
     }
 }
 

@@ -1,7 +1,9 @@
 //! `kinetwin.Pusher`: a plate that a cylinder moves out and back, with a switch at each end and room for two light barriers.
 
+use crate::device::cylinder::Cylinder;
 use crate::device::law::moves;
-use crate::device::law::stroke::{Drive, Stroke, StrokeSettings};
+use crate::device::law::stroke::{Drive, StrokeSettings};
+use crate::device::path::Stages;
 use crate::device::table::{FASTEST, LEAST, LENGTH, LONGEST_M, VELOCITY, code, indicator, number, numbers};
 use crate::device::{BuildError, Device, Plate, Role, Surroundings, triple};
 use crate::plant::Parameters;
@@ -55,10 +57,10 @@ const LIGHTBARRIER_A: usize = 4;
 const LIGHTBARRIER_B: usize = 5;
 
 /// A pusher with its plate.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Pusher {
     drive: Drive,
-    stroke: Stroke,
+    cylinder: Cylinder,
     plate: Plate,
     beams: [bool; 2],
 }
@@ -73,13 +75,13 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
         barriers: [barrier("barrierA"), barrier("barrierB")],
         beam_height: parameters.number("beamHeight"),
     };
-    let stroke = Stroke::new(StrokeSettings {
+    let cylinder = Cylinder::new(StrokeSettings {
         length: parameters.number("stroke"),
         extend_speed: parameters.number("extendSpeed"),
         retract_speed: parameters.number("retractSpeed"),
         limit_tolerance: parameters.number("limitTolerance"),
     });
-    Ok(Box::new(Pusher { drive: Drive::Hold, stroke, plate, beams: [false; 2] }))
+    Ok(Box::new(Pusher { drive: Drive::Hold, cylinder, plate, beams: [false; 2] }))
 }
 
 impl Device for Pusher {
@@ -92,6 +94,7 @@ impl Device for Pusher {
                 2.0 => Drive::Retract,
                 _ => self.drive,
             };
+            self.cylinder.command(self.drive);
         }
     }
 
@@ -101,14 +104,14 @@ impl Device for Pusher {
 
     fn advance(&mut self, seconds: f64) {
         // Actuator and mechanics; the plate sits on the rod.
-        self.plate.displacement = self.stroke.advance(self.drive, seconds);
-        self.plate.position = self.stroke.position();
+        self.plate.displacement = self.cylinder.advance(seconds);
+        self.plate.position = self.cylinder.rod().position;
     }
 
-    fn report(&self, reports: &mut [f64]) {
-        reports[LIMIT_EXTENDED] = f64::from(self.stroke.at_extended());
-        reports[LIMIT_RETRACTED] = f64::from(self.stroke.at_retracted());
-        reports[IS_RUNNING] = f64::from(moves(self.stroke.velocity(self.drive)));
+    fn report(&mut self, reports: &mut [f64]) {
+        reports[LIMIT_EXTENDED] = f64::from(self.cylinder.at_extended());
+        reports[LIMIT_RETRACTED] = f64::from(self.cylinder.at_retracted());
+        reports[IS_RUNNING] = f64::from(moves(self.cylinder.rod().velocity));
         reports[LIGHTBARRIER_A] = f64::from(self.beams[0] && self.plate.barriers[0].is_some());
         reports[LIGHTBARRIER_B] = f64::from(self.beams[1] && self.plate.barriers[1].is_some());
     }
@@ -119,9 +122,17 @@ impl Device for Pusher {
             Drive::Extend => 1.0,
             Drive::Retract => 2.0,
         });
-        visit(self.stroke.position());
+        self.cylinder.state(visit);
         visit(self.plate.displacement);
         self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
+
+    fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
+        Some(&mut self.cylinder.stages)
     }
 
     fn role(&self) -> Role<'_> {

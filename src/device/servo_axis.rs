@@ -1,7 +1,10 @@
 //! `kinetwin.ServoAxis`: one axis under a servo drive, linear or rotary.
 
+use crate::device::law::profile::{Limits, Profile};
 use crate::device::law::servo::{HIGHEST_RATE, Loop, Mechanics, Servo};
 use crate::device::law::slope::Slope;
+use crate::device::path::{Bounds, Moment, Motion, Stages};
+use crate::device::servo_path::{self, Nominal};
 use crate::device::table::{
     EFFORT, LENGTH, LONGEST_M, LONGEST_S, SPEED, TIME, TRAVEL, choice, measure, number, switch, target,
 };
@@ -102,13 +105,19 @@ enum Mode {
 }
 
 /// An axis.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct ServoAxis {
     mode: Mode,
     position_target: Slope,
     velocity_target: f64,
     force_target: f64,
     servo: Servo,
+    nominal: Nominal,
+    stages: Stages,
+    /// With stages: where an ideal axis is before its transmission, on its way under its drive's limits.
+    tracked: Motion,
+    motor: Motion,
+    load: Motion,
 }
 
 /// Builds one.
@@ -140,7 +149,18 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
         return Err(misfit(instance, "M", problem));
     }
     let position_target = Slope::default();
-    Ok(Box::new(ServoAxis { mode, position_target, velocity_target: 0.0, force_target: 0.0, servo }))
+    Ok(Box::new(ServoAxis {
+        mode,
+        position_target,
+        velocity_target: 0.0,
+        force_target: 0.0,
+        servo,
+        nominal: Nominal { drive, mechanics },
+        stages: Stages::default(),
+        tracked: Motion::default(),
+        motor: Motion::default(),
+        load: Motion::default(),
+    }))
 }
 
 fn mode(parameters: &Parameters) -> Mode {
@@ -181,6 +201,77 @@ impl ServoAxis {
     }
 }
 
+/// With stages in the path.
+impl ServoAxis {
+    fn advance_with_stages(&mut self, seconds: f64) {
+        let mut stages = std::mem::take(&mut self.stages);
+        stages.stretches(seconds, |stages, moment| {
+            self.position_target.advance(moment.span);
+            self.motor = if self.mode == Mode::Ideal {
+                let law = self.track(stages, moment);
+                stages.actuator.motion(law, moment)
+            } else {
+                self.drive(stages, moment)
+            };
+            self.load = stages.transmission.motion(self.motor, moment);
+        });
+        self.stages = stages;
+    }
+
+    /// The loop moves the axis; its reference is what the stages leave of the control error.
+    fn drive(&mut self, stages: &mut Stages, moment: Moment) -> Motion {
+        let motion = Motion { position: self.servo.position(), velocity: self.servo.velocity() };
+        let bounds = servo_path::bounds(stages, &self.nominal, motion, moment);
+        self.servo.limit(bounds.force);
+        self.servo.reference = self.reference() + self.correction(stages, bounds, motion, moment);
+        servo_path::advance(&mut self.servo, &self.nominal, stages, moment);
+        Motion { position: self.servo.position(), velocity: self.servo.velocity() }
+    }
+
+    /// By how much the loop's demand changes because the control error passes the actuator's stages, and because a
+    /// speed that is asked for is bounded.
+    fn correction(&self, stages: &mut Stages, bounds: Bounds, motion: Motion, moment: Moment) -> f64 {
+        let fastest = bounds.velocity;
+        match self.mode {
+            Mode::Cascade { position_gain, velocity_gain, .. } => {
+                let error = self.position_target.value() - motion.position;
+                let passed = stages.actuator.reference(error, motion, moment);
+                velocity_gain * ((position_gain * passed).clamp(-fastest, fastest) - position_gain * error)
+            }
+            Mode::Proportional { gain } => {
+                let error = self.position_target.value() - motion.position;
+                gain * (stages.actuator.reference(error, motion, moment) - error)
+            }
+            Mode::Velocity { gain } => {
+                let passed = stages.actuator.reference(self.velocity_target, motion, moment);
+                gain * (passed.clamp(-fastest, fastest) - self.velocity_target)
+            }
+            Mode::Force { gain } => {
+                gain * (stages.actuator.reference(self.force_target, motion, moment) - self.force_target)
+            }
+            Mode::Ideal => 0.0,
+        }
+    }
+
+    /// An ideal axis follows its target as fast as its drive's limits let it: at once where there are none.
+    fn track(&mut self, stages: &mut Stages, moment: Moment) -> Motion {
+        let before = self.tracked;
+        let bounds = servo_path::bounds(stages, &self.nominal, before, moment);
+        let target = stages.actuator.reference(self.position_target.value(), before, moment);
+        self.tracked = if bounds.acceleration.is_finite() {
+            let limits = Limits { velocity: bounds.velocity.min(1e9), acceleration: bounds.acceleration };
+            let mut profile = Profile::under_way(limits, before.position, before.velocity, target);
+            profile.advance(moment.span);
+            Motion { position: profile.position(), velocity: profile.velocity() }
+        } else {
+            let most = bounds.velocity * moment.span;
+            let step = (target - before.position).clamp(-most, most);
+            Motion { position: before.position + step, velocity: step / moment.span }
+        };
+        self.tracked
+    }
+}
+
 impl Device for ServoAxis {
     fn command(&mut self, port: usize, value: f64) {
         match port {
@@ -194,6 +285,9 @@ impl Device for ServoAxis {
     }
 
     fn advance(&mut self, seconds: f64) {
+        if !self.stages.is_nominal() {
+            return self.advance_with_stages(seconds);
+        }
         let mut rest = seconds;
         while rest > 0.0 {
             let span = rest.min(self.steady());
@@ -207,7 +301,13 @@ impl Device for ServoAxis {
         }
     }
 
-    fn report(&self, reports: &mut [f64]) {
+    fn report(&mut self, reports: &mut [f64]) {
+        if !self.stages.is_nominal() {
+            reports[POSITION] = self.load.position;
+            reports[VELOCITY] = self.motor.velocity;
+            reports[FORCE] = if self.mode == Mode::Ideal { 0.0 } else { self.servo.force() };
+            return;
+        }
         (reports[POSITION], reports[VELOCITY], reports[FORCE]) = match self.mode {
             Mode::Ideal => (self.position_target.value(), self.position_target.rate(), 0.0),
             _ => (self.servo.position(), self.servo.velocity(), self.servo.force()),
@@ -219,6 +319,19 @@ impl Device for ServoAxis {
         visit(self.velocity_target);
         visit(self.force_target);
         self.servo.state(visit);
+        self.stages.state(visit);
+        for motion in [self.tracked, self.motor, self.load] {
+            visit(motion.position);
+            visit(motion.velocity);
+        }
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
+
+    fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
+        Some(&mut self.stages)
     }
 }
 

@@ -1,6 +1,7 @@
 //! `kinetwin.SuctionCapGripper`: cups that hold a part by vacuum.
 
 use crate::device::law::vacuum::Vacuum;
+use crate::device::path::{Moment, Stages, VacuumTimes};
 use crate::device::table::{LENGTH, LONGEST_M, LONGEST_S, TIME, indicator, instance, number, numbers, option, switch};
 use crate::device::{BuildError, Cups, Device, Role, Surroundings, triple};
 use crate::plant::Parameters;
@@ -37,22 +38,42 @@ const BLOW_ON: usize = 1;
 const VACUUM_ON: usize = 2;
 
 /// A gripper with its cups.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct SuctionCapGripper {
     suction: bool,
     blow: bool,
     vacuum: Vacuum,
+    times: VacuumTimes,
+    stages: Stages,
     cups: Cups,
 }
 
 /// Builds one.
 pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn Device>, BuildError> {
-    let mut vacuum = Vacuum::new(parameters.number("buildUpTime"), parameters.number("releaseTime"));
+    let times = VacuumTimes {
+        build_up: parameters.number("buildUpTime"),
+        release: parameters.number("releaseTime"),
+        hold: f64::INFINITY,
+    };
+    let mut vacuum = Vacuum::new(times.build_up, times.release);
     let always_sealed = parameters.boolean("alwaysSealed");
     vacuum.seal(always_sealed);
     let offset = triple(parameters, "cupOffset", instance)?;
     let cups = Cups { offset, reach: parameters.number("reach"), vacuum: false, always_sealed };
-    Ok(Box::new(SuctionCapGripper { suction: false, blow: false, vacuum, cups }))
+    Ok(Box::new(SuctionCapGripper { suction: false, blow: false, vacuum, times, stages: Stages::default(), cups }))
+}
+
+impl SuctionCapGripper {
+    fn pass(&mut self, moment: Moment) {
+        pass(&mut self.vacuum, self.times, (self.suction, self.blow), &mut self.stages, moment);
+    }
+}
+
+/// Gives the cups what the stages leave of the command and of their times.
+fn pass(vacuum: &mut Vacuum, nominal: VacuumTimes, (suction, blow): (bool, bool), stages: &mut Stages, moment: Moment) {
+    let times = stages.process.vacuum(nominal, moment);
+    vacuum.limit(times.build_up, times.release, times.hold);
+    vacuum.command(stages.actuator.switched(suction, moment), blow);
 }
 
 impl Device for SuctionCapGripper {
@@ -62,7 +83,7 @@ impl Device for SuctionCapGripper {
             BLOW_ON => self.blow = value != 0.0,
             _ => return,
         }
-        self.vacuum.command(self.suction, self.blow);
+        self.pass(self.stages.moment());
         self.cups.vacuum = self.vacuum.holds();
     }
 
@@ -72,16 +93,34 @@ impl Device for SuctionCapGripper {
     }
 
     fn advance(&mut self, seconds: f64) {
-        self.vacuum.advance(seconds);
+        if self.stages.is_nominal() {
+            self.vacuum.advance(seconds);
+        } else {
+            let mut stages = std::mem::take(&mut self.stages);
+            stages.stretches(seconds, |stages, moment| {
+                self.vacuum.advance(moment.span);
+                pass(&mut self.vacuum, self.times, (self.suction, self.blow), stages, moment);
+            });
+            self.stages = stages;
+        }
         self.cups.vacuum = self.vacuum.holds();
     }
 
-    fn report(&self, reports: &mut [f64]) {
+    fn report(&mut self, reports: &mut [f64]) {
         reports[VACUUM_ON] = f64::from(self.cups.vacuum);
     }
 
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         self.vacuum.state(visit);
+        self.stages.state(visit);
+    }
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
+
+    fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
+        Some(&mut self.stages)
     }
 
     fn role(&self) -> Role<'_> {

@@ -30,7 +30,7 @@ pub static KIND: KindDescriptor = KindDescriptor {
 };
 
 /// A bay.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct UnloadingBay {
     sink: Sink,
 }
@@ -58,9 +58,13 @@ impl Device for UnloadingBay {
 
     fn advance(&mut self, _seconds: f64) {}
 
-    fn report(&self, _reports: &mut [f64]) {}
+    fn report(&mut self, _reports: &mut [f64]) {}
 
     fn state(&self, _visit: &mut dyn FnMut(f64)) {}
+
+    fn boxed(&self) -> Box<dyn Device> {
+        Box::new(self.clone())
+    }
 
     fn role(&self) -> Role<'_> {
         Role::Takes(&self.sink)

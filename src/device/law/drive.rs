@@ -40,6 +40,11 @@ impl Drive {
         self.reference = reference;
     }
 
+    /// From now on its speed rises and falls with these slopes.
+    pub fn limit(&mut self, rising: f64, falling: f64) {
+        self.settings.slopes = Slopes { rising, falling };
+    }
+
     /// Whether it is enabled and ready: at once without a delay.
     pub fn ready(&self) -> bool {
         self.enabled && self.waited >= self.settings.ready_delay - SAME_INSTANT_S

@@ -53,6 +53,14 @@ impl Profile {
         Profile { limits, target: 0.0, segments: [Segment::default(); 3], elapsed: Sum::default() }
     }
 
+    /// An axis that is at `position` with `velocity` and heads for `target`.
+    pub fn under_way(limits: Limits, position: f64, velocity: f64, target: f64) -> Profile {
+        let mut profile = Profile::new(limits);
+        profile.segments[0] = Segment { seconds: f64::INFINITY, acceleration: 0.0, position, velocity };
+        profile.plan(target);
+        profile
+    }
+
     /// Where it is to go.
     pub fn target(&self) -> f64 {
         self.target

@@ -120,6 +120,52 @@ impl Servo {
         Servo { drive, mechanics, rate, reference: 0.0, torque: true, position: 0.0, velocity: 0.0, integral: 0.0 }
     }
 
+    /// From now on the drive's greatest force either way is `limit`, N or N·m.
+    pub fn limit(&mut self, limit: f64) {
+        self.drive.limit = limit;
+    }
+
+    /// From now on this is what it moves.
+    pub fn burden(&mut self, mechanics: Mechanics) {
+        if mechanics != self.mechanics {
+            self.mechanics = mechanics;
+            self.rate = rate(&self.drive, &self.mechanics);
+        }
+    }
+
+    /// From now on the drive exerts `force` whatever its loop demands, N or N·m; the loop's gains stay without effect.
+    pub fn open(&mut self, force: f64) {
+        self.drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: f64::MAX };
+        self.rate = rate(&self.drive, &self.mechanics);
+        self.reference = force;
+        self.integral = 0.0;
+        self.torque = true;
+    }
+
+    /// Lies still where it is: something holds it.
+    pub fn hold(&mut self) {
+        self.velocity = 0.0;
+    }
+
+    /// Takes position and velocity from `other`, and keeps its own drive and integrator.
+    pub fn follow(&mut self, other: &Servo) {
+        self.position = other.position;
+        self.velocity = other.velocity;
+    }
+
+    /// Lets `seconds` pass at rest: only the integrator moves, towards what the drive exerts.
+    pub fn wait(&mut self, seconds: f64) {
+        if let (Some(time), true) = (self.drive.integral_time, self.torque) {
+            let share = 1.0 - (-seconds / time).exp();
+            self.integral += (self.force() - self.integral) * share;
+        }
+    }
+
+    /// What drives the axis now: the drive's force less load and weight, friction apart; N or N·m.
+    pub fn driving(&self) -> f64 {
+        self.force() - (self.resistance() - self.mechanics.viscous_friction * self.velocity)
+    }
+
     /// Present position, m or rad.
     pub fn position(&self) -> f64 {
         self.position

@@ -35,6 +35,12 @@ impl Stroke {
         Stroke { settings, position: 0.0 }
     }
 
+    /// From now on it moves at these speeds.
+    pub fn limit(&mut self, extend_speed: f64, retract_speed: f64) {
+        self.settings.extend_speed = extend_speed;
+        self.settings.retract_speed = retract_speed;
+    }
+
     /// From 0, retracted, to the stroke's length.
     pub fn position(&self) -> f64 {
         self.position

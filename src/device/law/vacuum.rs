@@ -14,6 +14,8 @@ pub struct Vacuum {
     build_up_time: f64,
     /// From suction off to the loss of the vacuum, s.
     release_time: f64,
+    /// From vacuum to its loss by a leak, though suction is on, s; infinite where nothing leaks.
+    hold_time: f64,
     suction: bool,
     blow: bool,
     sealed: bool,
@@ -26,7 +28,23 @@ pub struct Vacuum {
 impl Vacuum {
     /// Cups without vacuum, suction and blowing off, not sealed; times in seconds.
     pub fn new(build_up_time: f64, release_time: f64) -> Vacuum {
-        Vacuum { build_up_time, release_time, suction: false, blow: false, sealed: false, held: false, elapsed: 0.0 }
+        Vacuum {
+            build_up_time,
+            release_time,
+            hold_time: f64::INFINITY,
+            suction: false,
+            blow: false,
+            sealed: false,
+            held: false,
+            elapsed: 0.0,
+        }
+    }
+
+    /// From now on building up and release take these times, and vacuum leaks away after `hold_time` under suction; s.
+    pub fn limit(&mut self, build_up_time: f64, release_time: f64, hold_time: f64) {
+        self.build_up_time = build_up_time;
+        self.release_time = release_time;
+        self.hold_time = hold_time;
     }
 
     /// Suction and blowing from now on.
@@ -64,9 +82,9 @@ impl Vacuum {
             return false;
         }
         match (self.held, self.suction) {
-            (true, true) => true,
+            (true, true) => elapsed < self.build_up_time + self.hold_time,
             (true, false) => elapsed < self.release_time,
-            (false, true) => elapsed >= self.build_up_time,
+            (false, true) => (self.build_up_time..self.build_up_time + self.hold_time).contains(&elapsed),
             (false, false) => false,
         }
     }

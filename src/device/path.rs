@@ -1,0 +1,306 @@
+//! A device's signal path, and what may stand in it beyond the nominal law.
+//!
+//! ```text
+//! command link → actuator → mechanics → transmission → load → sensor → report link        (and the process: the parts)
+//! ```
+//!
+//! A [`Stage`] is something a real device adds at one place of that path: a dead time, a friction, a backlash. Every
+//! method of it is the identity unless it says otherwise, so that a device strings its stages along its law without
+//! knowing them. A device whose path holds no stage computes its nominal law by the same instructions as ever: bit by bit
+//! the same result. With stages it moves in short stretches of at most [`STRETCH_S`], because a stage is a law of its own
+//! that is only known from one instant to the next.
+
+use std::fmt;
+
+use super::law::SAME_INSTANT_S;
+use super::law::sum::Sum;
+use crate::plant::EffectPlace;
+
+/// The longest stretch that a device with stages moves at once, s.
+pub const STRETCH_S: f64 = 1e-3;
+
+/// Where something is and how fast it moves: m and m/s, or rad and rad/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    pub position: f64,
+    pub velocity: f64,
+}
+
+/// The instant a stage is asked about, and how long ago it was asked before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Since the device was built, s.
+    pub now: f64,
+    /// The stretch that ends now, s; 0 when only a value changed.
+    pub span: f64,
+}
+
+/// What a drive may do; each at or above 0, infinite where nothing limits it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Highest speed, m/s or rad/s.
+    pub velocity: f64,
+    /// Steepest rise of the speed's magnitude, m/s² or rad/s².
+    pub acceleration: f64,
+    /// Steepest fall of it.
+    pub deceleration: f64,
+    /// Greatest force or torque either way, N or N·m.
+    pub force: f64,
+}
+
+/// Friction as a set-valued law: while the axis moves it opposes with `sliding + viscous·|v|`, at rest with any force up to
+/// `sticking`. Nominally only `viscous` is not 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Friction {
+    /// At the present speed, N or N·m.
+    pub sliding: f64,
+    /// At rest, at least as much as `sliding`, N or N·m.
+    pub sticking: f64,
+    /// N·s/m or N·m·s/rad.
+    pub viscous: f64,
+}
+
+/// What a drive has to move beside friction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Burden {
+    /// kg or kg·m².
+    pub inertia: f64,
+    /// Opposes positive motion if positive, N or N·m.
+    pub force: f64,
+}
+
+/// How long a gripper takes, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VacuumTimes {
+    pub build_up: f64,
+    pub release: f64,
+    /// How long vacuum holds before it leaks away, infinite if it does not.
+    pub hold: f64,
+}
+
+/// Something at one place of a signal path. Units are SI; `moment.now` never falls.
+pub trait Stage: Send + Sync + fmt::Debug {
+    /// A copy with its state.
+    fn boxed(&self) -> Box<dyn Stage>;
+
+    /// A signal passes (command link, sensor, report link): `value` stands at the entry now, what stands at the exit?
+    /// Called at every change of the entry, and at the end of every stretch.
+    fn signal(&mut self, value: f64, _moment: Moment) -> f64 {
+        value
+    }
+
+    /// When the exit will next change by itself, if that is known: the device ends a stretch there.
+    fn next_change(&self) -> Option<f64> {
+        None
+    }
+
+    /// The reference of a drive passes: the speed (ramps, strokes), the target (profiles), or the control error (servo
+    /// loops) that the law is to follow.
+    fn reference(&mut self, reference: f64, _motion: Motion, _moment: Moment) -> f64 {
+        reference
+    }
+
+    /// What the drive may do now.
+    fn bounds(&mut self, bounds: Bounds, _motion: Motion, _moment: Moment) -> Bounds {
+        bounds
+    }
+
+    /// The force of a drive passes on its way to the axis, N or N·m; only where [`shapes_effort`](Stage::shapes_effort).
+    fn effort(&mut self, effort: f64, _moment: Moment) -> f64 {
+        effort
+    }
+
+    /// Whether [`effort`](Stage::effort) is not the identity.
+    fn shapes_effort(&self) -> bool {
+        false
+    }
+
+    /// Whether the drive is switched on: `on` is what it was told.
+    fn switched(&mut self, on: bool, _moment: Moment) -> bool {
+        on
+    }
+
+    /// What the law moved passes to the next part of the path: a lag, a slip, a backlash.
+    fn motion(&mut self, motion: Motion, _moment: Moment) -> Motion {
+        motion
+    }
+
+    /// The friction about a motion under the force `driving` (drive less load, N or N·m).
+    fn friction(&mut self, friction: Friction, _motion: Motion, _driving: f64) -> Friction {
+        friction
+    }
+
+    /// The burden at a motion.
+    fn burden(&mut self, burden: Burden, _motion: Motion, _moment: Moment) -> Burden {
+        burden
+    }
+
+    /// A gripper's times.
+    fn vacuum(&mut self, times: VacuumTimes, _moment: Moment) -> VacuumTimes {
+        times
+    }
+
+    /// How far a part moves when its belt moved by `displacement` (m) in the stretch, the belt's speed being `velocity` now and
+    /// `before` at the stretch's start (m/s).
+    fn carried(&mut self, displacement: f64, _velocity: f64, _before: f64, _moment: Moment) -> f64 {
+        displacement
+    }
+
+    /// Gives every number of its state to `visit`, in an order that never changes.
+    fn state(&self, visit: &mut dyn FnMut(f64));
+}
+
+impl Clone for Box<dyn Stage> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
+}
+
+/// The stages of one component, in the order of the path.
+#[derive(Clone, Debug, Default)]
+pub struct Path {
+    stages: Vec<Box<dyn Stage>>,
+}
+
+impl Path {
+    /// Adds a stage behind those that are there.
+    pub fn push(&mut self, stage: Box<dyn Stage>) {
+        self.stages.push(stage);
+    }
+
+    /// Whether nothing stands in the path: the nominal law alone holds.
+    pub fn is_nominal(&self) -> bool {
+        self.stages.is_empty()
+    }
+
+    /// See [`Stage::signal`].
+    pub fn signal(&mut self, value: f64, moment: Moment) -> f64 {
+        self.stages.iter_mut().fold(value, |value, stage| stage.signal(value, moment))
+    }
+
+    /// The first change that any stage foresees.
+    pub fn next_change(&self) -> Option<f64> {
+        self.stages.iter().filter_map(|stage| stage.next_change()).min_by(f64::total_cmp)
+    }
+
+    /// See [`Stage::reference`].
+    pub fn reference(&mut self, reference: f64, motion: Motion, moment: Moment) -> f64 {
+        self.stages.iter_mut().fold(reference, |reference, stage| stage.reference(reference, motion, moment))
+    }
+
+    /// See [`Stage::bounds`].
+    pub fn bounds(&mut self, bounds: Bounds, motion: Motion, moment: Moment) -> Bounds {
+        self.stages.iter_mut().fold(bounds, |bounds, stage| stage.bounds(bounds, motion, moment))
+    }
+
+    /// See [`Stage::effort`].
+    pub fn effort(&mut self, effort: f64, moment: Moment) -> f64 {
+        self.stages.iter_mut().fold(effort, |effort, stage| stage.effort(effort, moment))
+    }
+
+    /// See [`Stage::shapes_effort`].
+    pub fn shapes_effort(&self) -> bool {
+        self.stages.iter().any(|stage| stage.shapes_effort())
+    }
+
+    /// See [`Stage::switched`].
+    pub fn switched(&mut self, on: bool, moment: Moment) -> bool {
+        self.stages.iter_mut().fold(on, |on, stage| stage.switched(on, moment))
+    }
+
+    /// See [`Stage::motion`].
+    pub fn motion(&mut self, motion: Motion, moment: Moment) -> Motion {
+        self.stages.iter_mut().fold(motion, |motion, stage| stage.motion(motion, moment))
+    }
+
+    /// See [`Stage::friction`].
+    pub fn friction(&mut self, friction: Friction, motion: Motion, driving: f64) -> Friction {
+        self.stages.iter_mut().fold(friction, |friction, stage| stage.friction(friction, motion, driving))
+    }
+
+    /// See [`Stage::burden`].
+    pub fn burden(&mut self, burden: Burden, motion: Motion, moment: Moment) -> Burden {
+        self.stages.iter_mut().fold(burden, |burden, stage| stage.burden(burden, motion, moment))
+    }
+
+    /// See [`Stage::vacuum`].
+    pub fn vacuum(&mut self, times: VacuumTimes, moment: Moment) -> VacuumTimes {
+        self.stages.iter_mut().fold(times, |times, stage| stage.vacuum(times, moment))
+    }
+
+    /// See [`Stage::carried`].
+    pub fn carried(&mut self, displacement: f64, velocity: f64, before: f64, moment: Moment) -> f64 {
+        self.stages.iter_mut().fold(displacement, |way, stage| stage.carried(way, velocity, before, moment))
+    }
+
+    /// See [`Stage::state`].
+    pub fn state(&self, visit: &mut dyn FnMut(f64)) {
+        for stage in &self.stages {
+            stage.state(visit);
+        }
+    }
+}
+
+/// All stages inside one component of a device, by their place.
+#[derive(Clone, Debug, Default)]
+pub struct Stages {
+    pub actuator: Path,
+    pub mechanics: Path,
+    pub transmission: Path,
+    pub load: Path,
+    pub process: Path,
+    now: Sum,
+}
+
+impl Stages {
+    /// Adds a stage at `place`; gives it back where that place does not lie inside a device.
+    pub fn push(&mut self, place: EffectPlace, stage: Box<dyn Stage>) -> Result<(), Box<dyn Stage>> {
+        match place {
+            EffectPlace::Actuator => self.actuator.push(stage),
+            EffectPlace::Mechanics => self.mechanics.push(stage),
+            EffectPlace::Transmission => self.transmission.push(stage),
+            EffectPlace::Load => self.load.push(stage),
+            EffectPlace::Process => self.process.push(stage),
+            EffectPlace::CommandLink | EffectPlace::Sensor | EffectPlace::ReportLink => return Err(stage),
+        }
+        Ok(())
+    }
+
+    fn paths(&self) -> [&Path; 5] {
+        [&self.actuator, &self.mechanics, &self.transmission, &self.load, &self.process]
+    }
+
+    /// Whether nothing stands anywhere: the nominal law alone holds.
+    pub fn is_nominal(&self) -> bool {
+        self.paths().iter().all(|path| path.is_nominal())
+    }
+
+    /// The present instant, for a value that changed at once.
+    pub fn moment(&self) -> Moment {
+        Moment { now: self.now.value(), span: 0.0 }
+    }
+
+    /// Moves by `seconds` in stretches that end where a stage foresees a change, and gives each to `stretch`: the moment
+    /// at its end.
+    pub fn stretches(&mut self, seconds: f64, mut stretch: impl FnMut(&mut Stages, Moment)) {
+        let mut rest = seconds;
+        while rest > 0.0 {
+            let change = self.paths().iter().filter_map(|path| path.next_change()).min_by(f64::total_cmp);
+            let until = change.map_or(f64::INFINITY, |at| at - self.now.value());
+            // A change that is due, or so near that time would not move, does not hold time up.
+            let until = if until > SAME_INSTANT_S { until } else { f64::INFINITY };
+            let span = rest.min(STRETCH_S).min(until);
+            rest -= span;
+            self.now.add(span);
+            let moment = Moment { now: self.now.value(), span };
+            stretch(self, moment);
+        }
+    }
+
+    /// See [`Stage::state`].
+    pub fn state(&self, visit: &mut dyn FnMut(f64)) {
+        for path in self.paths() {
+            path.state(visit);
+        }
+    }
+}
