@@ -149,7 +149,7 @@ impl Alone {
         }
     }
 
-    fn reports(&self) -> Vec<f64> {
+    fn reports(&mut self) -> Vec<f64> {
         let mut reports = vec![0.0; self.kind.ports.len()];
         self.device.report(&mut reports);
         reports
