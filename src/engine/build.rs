@@ -7,6 +7,7 @@ use super::binding::{CommandTable, ReportPort, Target};
 use super::floor::{Bay, BeltBody, CupsBody, Drain, Floor, PlateBody};
 use super::{Engine, Mount, Unit, UnitBody};
 use crate::device::{self, Belt, Cups, Device, Role, Surface as DeviceSurface};
+use crate::effect;
 use crate::kinematics::{Along, Block, DPose3, DQuat, DVec3, FrameId, FrameTree, Shape, Surface, Upright, is_level};
 use crate::plant::{InitialPart, Instance, Plant, Pose, Task};
 use crate::signal_map::Direction;
@@ -19,6 +20,8 @@ pub enum BuildError {
     NoStep,
     #[error(transparent)]
     Device(#[from] device::BuildError),
+    #[error(transparent)]
+    Effect(#[from] effect::EffectError),
     #[error(
         "{instance} is tilted: parts stand upright, so that what carries, pushes or lifts them must be level; \
          set rx and ry of its pose to 0"
@@ -43,7 +46,8 @@ impl Engine {
         let mut units: Vec<Unit> = Vec::new();
         for instance in &plant.instances {
             for task in &instance.tasks {
-                let mut device = device::build(task.kind, &task.parameters, &instance.name, seed)?;
+                let device = device::build(task.kind, &task.parameters, &instance.name, seed)?;
+                let mut device = effect::attach(device, task.kind, &instance.name, &instance.effects)?;
                 let mut reports = Vec::new();
                 for (port, register) in task.ports.iter().enumerate() {
                     let Some(register) = *register else { continue };

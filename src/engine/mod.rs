@@ -173,7 +173,7 @@ impl Engine {
     }
 
     fn report(&mut self) {
-        for unit in &self.units {
+        for unit in &mut self.units {
             if unit.reports.is_empty() {
                 continue;
             }
