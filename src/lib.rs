@@ -5,6 +5,7 @@
 pub mod adapter;
 pub mod automation;
 pub mod bank;
+pub mod cli;
 pub mod device;
 pub mod effect;
 pub mod engine;
@@ -12,6 +13,7 @@ pub mod kinematics;
 pub mod pace;
 pub mod plant;
 pub mod prototype;
+pub mod run;
 pub mod session;
 pub mod signal_map;
 pub mod time;

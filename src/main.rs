@@ -1,1 +1,7 @@
-fn main() {}
+//! The program. See `kinetwin --help`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    kinetwin::cli::main()
+}

@@ -10,6 +10,7 @@ use crate::bank::Overrun;
 use crate::session::{Client, ClientEvent, ClientSettings, Ending, Input, Output, Staged};
 use crate::signal_map::SignalMap;
 use crate::time::Instant;
+use crate::wire::Fault;
 
 /// What a transport has for its connector.
 #[derive(Debug, PartialEq, Eq)]
@@ -81,6 +82,8 @@ pub enum Event {
     Session(ClientEvent),
     /// What the transport says: why a connection ended or could not be made.
     Connection(String),
+    /// Values that arrived in a message with good ones could not be used; the automation has been told.
+    ValuesRefused(Vec<Fault>),
     /// The automation did not read for so long that this many changes could not be kept.
     ReportsLost { changes: u64 },
     /// The automation sent faster than the simulation takes, and the queue is full.
@@ -227,7 +230,12 @@ impl Session {
     ) {
         match event {
             ClientEvent::Dial { .. } => transport.dial(now),
-            ClientEvent::Values(staged) => return self.staged.push_back(staged),
+            ClientEvent::Values(mut staged) => {
+                if !staged.faults.is_empty() {
+                    events.push_back(Event::ValuesRefused(std::mem::take(&mut staged.faults)));
+                }
+                return self.staged.push_back(staged);
+            }
             ClientEvent::Established { .. } => self.outbox.start(),
             ClientEvent::Lost { .. } => self.outbox.stop(),
             ClientEvent::Rejected { ref text, .. } => self.refused.push_back(text.clone()),

@@ -105,25 +105,31 @@ impl<A: Adapter, W: Witness> Exchange<A, W> {
     }
 }
 
-/// Turns the loops on the wall clock: at every frame, at every ring of the bell, and when an interval is over, until
-/// `after`, which sees the exchange after each turn, says that it is enough.
+/// Turns the loops on the wall clock: at every frame, at every ring of the bell, and when an interval is over. When the
+/// bell is gone, the simulation is over: what it left is sent, the session is ended in good order, and that is the end.
 ///
-/// Runs on a tokio runtime with its IO and time drivers on.
+/// `after` sees the exchange after each turn. Runs on a tokio runtime with its IO and time drivers on.
 pub async fn drive<A: Adapter, W: Witness>(
     exchange: &mut Exchange<A, W>,
     mut ears: Ears,
     clock: WallClock,
-    mut after: impl FnMut(&mut Exchange<A, W>, &mut Context<'_>, Instant) -> Poll<()>,
+    mut after: impl FnMut(&mut Exchange<A, W>, Instant),
 ) {
     let mut alarm = pin!(tokio::time::sleep(Duration::ZERO));
-    let mut bell_stands = true;
+    let mut simulating = true;
     poll_fn(|cx| {
         loop {
             // Emptied before the turn looks into the bank; see `bell`.
-            bell_stands = bell_stands && ears.hear(cx).is_ok();
+            let over = simulating && ears.hear(cx).is_err();
             let now = clock.now();
             exchange.turn(cx, now);
-            if after(exchange, cx, now).is_ready() {
+            if over {
+                simulating = false;
+                exchange.adapter().disconnect(now);
+                exchange.turn(cx, now);
+            }
+            after(exchange, now);
+            if !simulating && exchange.adapter().is_done() {
                 return Poll::Ready(());
             }
             alarm.as_mut().reset(clock.to_system(exchange.next_turn()).into());

@@ -10,7 +10,9 @@
 mod bell;
 mod clock;
 mod exchange;
+mod simulation;
 
 pub use bell::{Bell, Ears, Listener, bell};
 pub use clock::WallClock;
 pub use exchange::{Exchange, Rates, drive};
+pub use simulation::{Journal, NoJournal, Simulation, Timing};

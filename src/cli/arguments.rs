@@ -1,0 +1,191 @@
+//! The words of the command line.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::adapter::ParseEndpointError;
+use crate::run::{Connect, Speed};
+use crate::time::parse_duration;
+
+/// Virtual commissioning of IEC 61499 automations: a plant's model runs in real time against its automation.
+#[derive(Debug, Parser)]
+#[command(version, about, long_about = LONG_ABOUT, after_long_help = AFTER_HELP, max_term_width = 100)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+const LONG_ABOUT: &str = "\
+kinetwin is the machine until the machine stands: it runs a plant's model in real time and exchanges every signal with \
+an IEC 61499 automation over the CPS-Protocol, on a WebSocket. To the automation, the model is the plant.
+
+Without a command it does its main job on what it carries with it: it starts an automation in the same process, runs the \
+de-palletization line against it for 20 s over a real WebSocket, and ends with a summary \
+(kinetwin run models/depalletizer --for 20s).";
+
+const AFTER_HELP: &str = "\
+Durations are written with their unit: 20s, 500ms, 1.5s, 2m.
+
+Exit codes:
+  0  the command did what was asked
+  1  the answer is no: a check found a mismatch, a comparison differs, a run never had a session
+  2  bad input or use; nothing was started";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Run(RunArguments),
+}
+
+/// Runs a model against its automation.
+///
+/// The model's signals are exchanged over the CPS-Protocol with the server that --connect names, or with an automation
+/// of our own in the same process. On a terminal one screen shows the plant and how the exchange goes; otherwise what
+/// happens is told on standard error. The summary comes on standard output at the end. Ctrl-C ends the run in good order:
+/// the session is closed, the summary is printed; a second Ctrl-C ends at once.
+#[derive(Debug, Args)]
+#[command(after_long_help = RUN_HELP)]
+pub struct RunArguments {
+    /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue (models/rig)
+    ///
+    /// What is on the disk counts before what the program carries with it, whose names work from any folder.
+    #[arg(default_value = "models/depalletizer", hide_default_value = true, required = true)]
+    pub model: String,
+    #[command(flatten)]
+    pub connection: ConnectionArguments,
+    /// How much simulated time to run, counted from the start of the process; without it, until Ctrl-C
+    #[arg(long = "for", value_name = "TIME", value_parser = parse_duration)]
+    pub duration: Option<Duration>,
+    /// The engine's step of simulated time
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "1ms")]
+    pub step: Duration,
+    /// Refresh interval of high-frequency levels [default: the plant's, else 20ms]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub hf: Option<Duration>,
+    /// Refresh interval of low-frequency levels [default: the plant's, else 500ms]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub lf: Option<Duration>,
+    /// Simulated seconds to a second of the wall clock, or max: as fast as possible
+    ///
+    /// With max, model and automation run in lock-step, and exactly: the automation's timers run on simulated time, and
+    /// each step waits until the automation has handled what was sent. It needs the embedded automation.
+    #[arg(long, value_name = "FACTOR|max", value_parser = parse_speed, default_value = "1.0")]
+    pub speed: Speed,
+    /// The seed of all that is random in the plant: the same seed, the same parts
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Records the session as a trace: JSON Lines, compressed where the name ends with .zst
+    ///
+    /// The trace is written beside FILE under a name that ends with .partial and takes its name when the run has ended.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+    /// Replaces the file of --record if there is one; without it, the run is refused
+    #[arg(long, requires = "record")]
+    pub force: bool,
+    /// Prints the summary as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const RUN_HELP: &str = "\
+Examples:
+  kinetwin run models/rig --for 5s
+  kinetwin run models/depalletizer --connect ws://192.168.0.10:8080
+  kinetwin run models/depalletizer --speed max --for 10m --seed 7 --json
+  kinetwin run ./my-plant --record session.cps.jsonl.zst
+
+A server that is absent or lost is tried again until the run ends, and simulated time goes on. It hears all present values \
+first whenever a session stands.
+
+Exit codes:
+  0  the run came to its end, or to Ctrl-C
+  1  the server never answered, or refused for good (5xx)
+  2  bad input or use; nothing was started";
+
+/// How the automation is reached.
+#[derive(Debug, Args)]
+pub struct ConnectionArguments {
+    /// The automation: ws://HOST:PORT, or embedded for the one in this process [default: the plant's, else embedded]
+    #[arg(long, value_name = "URL", value_parser = parse_connect)]
+    pub connect: Option<Connect>,
+    /// How long a connection may take to open, and an answer to come [default: the plant's, else 5s]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub timeout: Option<Duration>,
+    /// The longest message taken in; a longer one closes the connection
+    #[arg(long, value_name = "SIZE", value_parser = parse_size, default_value = "1MiB")]
+    pub max_message: usize,
+    /// A file with a bearer token for the server [or the environment variable KINETWIN_TOKEN]
+    #[arg(long, value_name = "FILE")]
+    pub token_file: Option<PathBuf>,
+}
+
+fn parse_connect(text: &str) -> Result<Connect, ParseEndpointError> {
+    match text {
+        "embedded" => Ok(Connect::Embedded),
+        url => url.parse().map(Connect::Server),
+    }
+}
+
+fn parse_speed(text: &str) -> Result<Speed, String> {
+    match text {
+        "max" => Ok(Speed::Max),
+        number => match number.parse() {
+            Ok(factor) if (0.01..=1000.0).contains(&factor) => Ok(Speed::Wall(factor)),
+            _ => Err("expected a number from 0.01 to 1000, or max".to_owned()),
+        },
+    }
+}
+
+/// Reads a number of bytes: `1MiB`, `64KiB`, `2MB`, `4096`.
+fn parse_size(text: &str) -> Result<usize, String> {
+    let refuse = || "expected a number of bytes, as 1MiB, 64KiB, 2MB or 4096".to_owned();
+    let digits = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let unit = match unit.trim_start() {
+        "" | "B" => 1,
+        "kB" | "KB" => 1000,
+        "KiB" => 1 << 10,
+        "MB" => 1_000_000,
+        "MiB" => 1 << 20,
+        "GB" => 1_000_000_000,
+        "GiB" => 1 << 30,
+        _ => return Err(refuse()),
+    };
+    number.parse::<usize>().ok().and_then(|number| number.checked_mul(unit)).ok_or_else(refuse)
+}
+
+impl RunArguments {
+    /// The main job: what the program does without a command.
+    pub fn main_job() -> RunArguments {
+        match Arguments::parse_from(["kinetwin", "run", "models/depalletizer", "--for", "20s"]).command {
+            Some(Command::Run(run)) => run,
+            other => unreachable!("{other:?}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_fit_together() {
+        Arguments::command().debug_assert();
+        let job = RunArguments::main_job();
+        assert_eq!((job.model.as_str(), job.duration), ("models/depalletizer", Some(Duration::from_secs(20))));
+    }
+
+    #[test]
+    fn sizes_as_people_write_them() {
+        let check = |text: &str, bytes: Option<usize>| assert_eq!(parse_size(text).ok(), bytes, "{text}");
+        check("1MiB", Some(1 << 20));
+        check("64 KiB", Some(64 << 10));
+        check("2MB", Some(2_000_000));
+        check("4096", Some(4096));
+        for text in ["", "MiB", "-1", "1.5MiB", "1TiB", "99999999999999999999GiB"] {
+            check(text, None);
+        }
+    }
+}

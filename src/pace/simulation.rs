@@ -1,0 +1,143 @@
+//! The simulation thread's loop: one step after the other, on the wall clock or as a caller says.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use hdrhistogram::Histogram;
+
+use super::bell::Bell;
+use super::clock::WallClock;
+use crate::bank::SimulationSide;
+use crate::engine::Engine;
+use crate::signal_map::RegisterId;
+use crate::time::Instant;
+use crate::value::Value;
+
+/// Who is told which messages a step took: the recorder.
+pub trait Journal: Send {
+    /// The step at the simulated time `at` took the messages up to `number`. Must not wait.
+    fn taken(&mut self, number: u64, at: Instant);
+}
+
+/// A journal that nobody reads.
+pub struct NoJournal;
+
+impl Journal for NoJournal {
+    fn taken(&mut self, _number: u64, _at: Instant) {}
+}
+
+/// How the steps went.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    /// Steps made.
+    pub steps: u64,
+    /// Steps whose computation took longer than the step lasts.
+    pub overruns: u64,
+    /// Steps that began more than a step too late because the operating system woke the thread late, or gave its time to
+    /// others; those that an overrun of ours pushed back are not among them.
+    pub late_steps: u64,
+    /// The computing time of each step, in nanoseconds of processor time.
+    pub computing_ns: Histogram<u64>,
+}
+
+impl Timing {
+    fn new() -> Timing {
+        // Up to a minute; three digits. What is longer counts as a minute.
+        let computing_ns = Histogram::new_with_bounds(1, LONGEST_STEP_NS, 3).expect("bounds in order, three digits");
+        Timing { steps: 0, overruns: 0, late_steps: 0, computing_ns }
+    }
+}
+
+const LONGEST_STEP_NS: u64 = 60_000_000_000;
+
+/// A running engine with its side of the memory.
+pub struct Simulation {
+    engine: Engine,
+    bank: SimulationSide,
+    bell: Option<Bell>,
+    journal: Box<dyn Journal>,
+    inputs: Vec<(RegisterId, Value)>,
+    timing: Timing,
+}
+
+impl Simulation {
+    /// `engine` on `bank`. The `bell` wakes the IO thread, where there is one.
+    pub fn new(engine: Engine, bank: SimulationSide, bell: Option<Bell>, journal: Box<dyn Journal>) -> Simulation {
+        Simulation { engine, bank, bell, journal, inputs: Vec::new(), timing: Timing::new() }
+    }
+
+    /// The engine.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// How the steps went so far.
+    pub fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// One step: takes the commands that arrived, computes, publishes the reports.
+    pub fn step(&mut self) {
+        let begun = processor_time();
+        let now = self.engine.now();
+        if let Some(number) = self.bank.take(&mut self.inputs) {
+            self.journal.taken(number, now);
+        }
+        let registers = self.engine.tick(&self.inputs);
+        let edge = self.bank.publish(now, registers);
+        // The first step's reports are what a session begins with, edge or not.
+        if let Some(bell) = self.bell.as_mut().filter(|_| edge || self.timing.steps == 0) {
+            bell.ring();
+        }
+        let spent = processor_time().saturating_sub(begun);
+        self.timing.steps += 1;
+        self.timing.computing_ns.saturating_record(spent.as_nanos() as u64);
+        self.timing.overruns += u64::from(spent > self.engine.step());
+    }
+
+    /// Steps on the wall clock, `speed` simulated seconds to a second, until `after`, which sees the simulation after each
+    /// step, breaks. Sleeps between steps, and never spins.
+    ///
+    /// Where a step began late, those after it follow at once until the schedule is kept again: simulated time is never
+    /// let go of.
+    pub fn pace(&mut self, speed: f64, mut after: impl FnMut(&Simulation) -> ControlFlow<()>) {
+        sharpen_sleep();
+        let clock = WallClock::start();
+        let period = self.engine.step().div_f64(speed);
+        let mut owed_by_us = false;
+        for k in 0u64.. {
+            let due = Instant::ZERO + Duration::from_secs_f64(k as f64 * period.as_secs_f64());
+            let ahead = due.since(clock.now());
+            if !ahead.is_zero() {
+                std::thread::sleep(ahead);
+            }
+            let late = clock.now().since(due);
+            if late < period {
+                owed_by_us = false;
+            } else if !owed_by_us {
+                self.timing.late_steps += 1;
+            }
+            let overruns = self.timing.overruns;
+            self.step();
+            owed_by_us |= self.timing.overruns > overruns;
+            if after(self).is_break() {
+                return;
+            }
+        }
+    }
+}
+
+/// The processor time that the calling thread has used. What others used while it waited for its turn is not in it.
+fn processor_time() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
+}
+
+/// Asks Linux not to delay this thread's timers in order to save wake-ups: by default it adds up to 50 µs to a sleep.
+fn sharpen_sleep() {
+    #[cfg(target_os = "linux")]
+    {
+        // Where it is refused, steps begin a little later than they might: no reason to stop.
+        let _ = rustix::thread::set_current_timer_slack(std::num::NonZeroU64::new(1));
+    }
+}

@@ -1,0 +1,209 @@
+//! The composition root: builds a run out of the rows above, owns its threads and its end, and yields a handle.
+//!
+//! ```text
+//! model ─▶ plant ─▶ engine ─▶ simulation ═ bank ═ exchange ─▶ adapter ─▶ automation
+//!                    └────────── the simulation's thread ──┘ └── the IO thread ──┘
+//! ```
+//!
+//! On the wall clock ([`start`]) the simulation and the exchange have a thread each, the automation, where it is embedded,
+//! has another, and they meet over a real WebSocket. As fast as possible, or stepped by a caller ([`Stepper`]), all three
+//! take turns on one thread, in lock-step and in memory: each step waits until the automation has handled what was sent.
+
+pub mod live;
+pub mod model;
+mod notice;
+mod options;
+mod recording;
+mod stepped;
+mod summary;
+mod wall;
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+use std::time::Duration;
+
+use crossbeam::channel::Receiver;
+
+use crate::adapter::{Endpoint, SettingsError};
+use crate::automation;
+use crate::engine::BuildError;
+use crate::pace::Rates;
+use crate::plant::{ModelError, Plant};
+
+pub use notice::{Gravity, Notice};
+pub use options::{Connect, Options, RecordTo, Speed};
+pub use stepped::Stepper;
+pub use summary::{Quantiles, Summary};
+
+use live::{ExchangeFrame, SimulationFrame, Viewer};
+
+/// Why a run cannot start, or could not be brought to its end.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    #[error("{0}")]
+    Option(String),
+    #[error(
+        "--speed max needs the embedded automation: the clock of {0} cannot be stepped; leave --connect out, or give a \
+         number as --speed"
+    )]
+    ForeignMax(Endpoint),
+    #[error("failed to start the embedded automation: {0}")]
+    Program(#[from] automation::program::StartError),
+    #[error("failed to start the embedded automation: {0}")]
+    Listen(#[from] automation::server::ListenError),
+    #[error("{} is there already; choose another file, or replace it with --force", .0.display())]
+    RecordingExists(PathBuf),
+    #[error("failed to record to {}: {reason}", path.display())]
+    Recording { path: PathBuf, reason: String },
+    #[error("failed to start a thread: {0}")]
+    Thread(#[source] std::io::Error),
+    #[error("the {0} thread died; this is a fault of the program")]
+    Died(&'static str),
+}
+
+/// What does not change about a run.
+#[derive(Clone, Debug)]
+pub struct Facts {
+    /// The model, as it was named.
+    pub model: String,
+    pub plant: Arc<Plant>,
+    pub step: Duration,
+    pub rates: Rates,
+    pub speed: Speed,
+    pub duration: Option<Duration>,
+    pub seed: u64,
+    /// Where the automation is.
+    pub server: ServerPlace,
+}
+
+/// Where the automation is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ServerPlace {
+    /// In this process, in lock-step.
+    Memory,
+    /// In this process, over a WebSocket on this address.
+    Embedded(SocketAddr),
+    /// Somewhere else.
+    Foreign(Endpoint),
+}
+
+impl Facts {
+    fn new(options: &Options, plant: Arc<Plant>, server: ServerPlace) -> Facts {
+        Facts {
+            model: options.model.clone(),
+            rates: options.rates(&plant),
+            plant,
+            step: options.step,
+            speed: options.speed,
+            duration: options.duration,
+            seed: options.seed,
+            server,
+        }
+    }
+
+    /// Prototypes in use.
+    pub fn prototypes(&self) -> usize {
+        let names: std::collections::BTreeSet<&str> =
+            self.plant.instances.iter().map(|instance| instance.prototype.as_str()).collect();
+        names.len()
+    }
+}
+
+impl std::fmt::Display for ServerPlace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            ServerPlace::Memory => write!(f, "the embedded automation, in lock-step"),
+            ServerPlace::Embedded(address) => write!(f, "the embedded automation at ws://{address}"),
+            ServerPlace::Foreign(endpoint) => write!(f, "{endpoint}"),
+        }
+    }
+}
+
+/// Ends a run in good order, from any thread.
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Arc<OnceLock<()>>);
+
+impl Stop {
+    /// Asks the run to end: no further step is made, the session is closed.
+    pub fn stop(&self) {
+        // Asked already: it is on its way.
+        let _ = self.0.set(());
+    }
+
+    /// Whether it was asked.
+    pub fn is_asked(&self) -> bool {
+        self.0.get().is_some()
+    }
+}
+
+/// A run that goes on.
+pub struct Handle {
+    facts: Facts,
+    stop: Stop,
+    notices: Receiver<Notice>,
+    simulation: Viewer<SimulationFrame>,
+    exchange: Viewer<ExchangeFrame>,
+    round_trip: Box<dyn Fn() -> Quantiles + Send>,
+    /// Waits for the run's threads, and sums up.
+    end: Box<dyn FnOnce() -> Result<Summary, RunError> + Send>,
+}
+
+impl Handle {
+    /// What does not change.
+    pub fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    /// What ends it.
+    pub fn stopper(&self) -> Stop {
+        self.stop.clone()
+    }
+
+    /// What happens, as it happens. Disconnected when the run has ended.
+    pub fn notices(&self) -> &Receiver<Notice> {
+        &self.notices
+    }
+
+    /// The newest state of the simulation, if there is one since it was last asked for.
+    pub fn simulation(&self) -> Option<SimulationFrame> {
+        self.simulation.take()
+    }
+
+    /// The newest state of the exchange, if there is one since it was last asked for.
+    pub fn exchange(&self) -> Option<ExchangeFrame> {
+        self.exchange.take()
+    }
+
+    /// The round trip so far, as the embedded automation measures it; all `None` with another.
+    pub fn round_trip(&self) -> Quantiles {
+        (self.round_trip)()
+    }
+
+    /// Waits for the end of the run.
+    pub fn finish(self) -> Result<Summary, RunError> {
+        // The end waits for threads that may ask for these.
+        drop((self.round_trip, self.notices));
+        (self.end)()
+    }
+}
+
+/// Starts a run.
+///
+/// # Errors
+/// Nothing has been started, opened or written where one is given.
+pub fn start(options: &Options) -> Result<Handle, RunError> {
+    let plant = Arc::new(model::load(&options.model)?);
+    options.validate()?;
+    match (options.speed, options.automation_of(&plant)) {
+        (Speed::Wall(speed), connect) => wall::start(options, plant, connect, speed),
+        (Speed::Max, Connect::Embedded) => stepped::start(options, plant),
+        (Speed::Max, Connect::Server(endpoint)) => Err(RunError::ForeignMax(endpoint)),
+    }
+}

@@ -1,0 +1,203 @@
+//! What a run came to.
+
+use hdrhistogram::Histogram;
+use serde::Serialize;
+
+use super::Facts;
+use crate::adapter::{Event, Traffic};
+use crate::engine::PartCounts;
+use crate::pace::{Simulation, Timing};
+use crate::session::{ClientEvent, Ending};
+use crate::time::Instant;
+
+/// The end of a run, in the words of `run --json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The model, as it was named.
+    pub model: String,
+    pub instances: usize,
+    pub signals: usize,
+    /// Prototypes in use.
+    pub prototypes: usize,
+    pub seed: u64,
+    /// The engine's step.
+    pub step_s: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Steps whose computation took longer than the step.
+    pub overruns: u64,
+    /// Steps that the operating system began more than a step late.
+    pub late_steps: u64,
+    /// Time on the wall clock, from the first step to the end of the last.
+    pub wall_s: f64,
+    /// Simulated time.
+    pub sim_s: f64,
+    /// Sessions that stood: 1 where none was lost.
+    pub sessions: u64,
+    /// `SendValue` messages taken in.
+    pub messages_in: u64,
+    /// `SendValue` messages sent.
+    pub messages_out: u64,
+    /// `SendValue` messages that could not be kept until they were wanted.
+    pub messages_lost: u64,
+    /// Values accepted.
+    pub values_in: u64,
+    /// Values sent.
+    pub values_out: u64,
+    /// Boxes that came in; pallets are counted apart.
+    pub parts_in: u64,
+    /// Boxes that went out.
+    pub parts_out: u64,
+    /// Boxes that came in, did not go out, and are not there.
+    pub parts_lost: u64,
+    pub pallets_in: u64,
+    pub pallets_out: u64,
+    /// Times that two parts, or a part and a device, were found inside one another.
+    pub collisions: u64,
+    /// The engine's whole state at the end, as a hash in hexadecimal digits: equal runs have equal hashes.
+    pub state_hash: String,
+    /// From a value that the automation sends to the simulation's answer to it, microseconds; null where it cannot be
+    /// measured.
+    pub round_trip_us: Quantiles,
+    /// The computing time of a step, microseconds of processor time.
+    pub step_us: Quantiles,
+    /// Why the server refused the session for good.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refused: Option<String>,
+    /// The file that was recorded to.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recorded: Option<String>,
+}
+
+/// What the simulation came to.
+pub(super) struct Simulated {
+    timing: Timing,
+    counts: PartCounts,
+    state_hash: u64,
+    /// Where its time ended.
+    now: Instant,
+    wall_s: f64,
+}
+
+impl Simulated {
+    /// Of a simulation that took until `wall` on a clock that started with it.
+    pub fn of(simulation: &Simulation, wall: Instant) -> Simulated {
+        let engine = simulation.engine();
+        Simulated {
+            timing: simulation.timing().clone(),
+            counts: engine.counts(),
+            state_hash: engine.state_hash(),
+            now: engine.now(),
+            wall_s: wall.seconds(),
+        }
+    }
+}
+
+/// What the exchange with the automation came to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Spoken {
+    pub traffic: Traffic,
+    sessions: u64,
+    refused: Option<String>,
+}
+
+impl Spoken {
+    /// Counts what happened.
+    pub fn take(&mut self, event: &Event) {
+        match event {
+            Event::Session(ClientEvent::Established { .. }) => self.sessions += 1,
+            Event::Session(ClientEvent::Ended(Ending::Refused { result, message })) => {
+                let said = message.as_deref().map(|message| format!(": {message}")).unwrap_or_default();
+                self.refused = Some(format!("{result}{said}"));
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Summary {
+    /// Puts together what the parts of a run came to.
+    pub(super) fn new(
+        facts: &Facts,
+        simulated: &Simulated,
+        spoken: &Spoken,
+        round_trip_us: Quantiles,
+        recorded: Option<String>,
+    ) -> Summary {
+        let Simulated { timing, counts, .. } = simulated;
+        let Traffic { messages_in, messages_out, messages_lost, values_in, values_out } = spoken.traffic;
+        Summary {
+            model: facts.model.clone(),
+            instances: facts.plant.instances.len(),
+            signals: facts.plant.signal_map.signals().len(),
+            prototypes: facts.prototypes(),
+            seed: facts.seed,
+            step_s: facts.step.as_secs_f64(),
+            steps: timing.steps,
+            overruns: timing.overruns,
+            late_steps: timing.late_steps,
+            wall_s: (simulated.wall_s * 1e3).round() / 1e3,
+            sim_s: simulated.now.seconds(),
+            sessions: spoken.sessions,
+            messages_in,
+            messages_out,
+            messages_lost,
+            values_in,
+            values_out,
+            parts_in: counts.boxes_in,
+            parts_out: counts.boxes_out,
+            parts_lost: counts.boxes_lost,
+            pallets_in: counts.pallets_in,
+            pallets_out: counts.pallets_out,
+            collisions: counts.collisions,
+            state_hash: format!("{:016x}", simulated.state_hash),
+            round_trip_us,
+            step_us: Quantiles::of_ns(&timing.computing_ns),
+            refused: spoken.refused.clone(),
+            recorded,
+        }
+    }
+}
+
+/// A distribution in four numbers, microseconds; all of them `None` where nothing was measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Quantiles {
+    pub p50: Option<f64>,
+    pub p99: Option<f64>,
+    pub p999: Option<f64>,
+    pub max: Option<f64>,
+}
+
+impl Quantiles {
+    /// Of a histogram in nanoseconds.
+    pub fn of_ns(histogram: &Histogram<u64>) -> Quantiles {
+        if histogram.is_empty() {
+            return Quantiles::default();
+        }
+        let us = |ns: u64| Some((ns as f64 / 100.0).round() / 10.0);
+        Quantiles {
+            p50: us(histogram.value_at_quantile(0.5)),
+            p99: us(histogram.value_at_quantile(0.99)),
+            p999: us(histogram.value_at_quantile(0.999)),
+            max: us(histogram.max()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_microseconds_and_null_where_nothing_was_measured() {
+        let mut histogram = Histogram::new_with_bounds(1, 1_000_000_000, 3).expect("bounds");
+        let none = serde_json::to_string(&Quantiles::of_ns(&histogram)).expect("JSON");
+        assert_eq!(none, r#"{"p50":null,"p99":null,"p999":null,"max":null}"#);
+        for us in 1..=100 {
+            histogram.record(us * 1000).expect("in bounds");
+        }
+        let quantiles = Quantiles::of_ns(&histogram);
+        assert!(quantiles.p50.is_some_and(|us| (us - 50.0).abs() < 0.1), "{quantiles:?}");
+        assert!(quantiles.max.is_some_and(|us| (us - 100.0).abs() < 0.1), "{quantiles:?}");
+    }
+}

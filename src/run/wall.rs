@@ -1,0 +1,178 @@
+//! A run on the wall clock: a thread that simulates, one that speaks with the automation, and the automation's own.
+
+use std::io;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use crossbeam::channel::{Sender, bounded};
+
+use super::live::{self, ExchangeFrame, Publisher, SimulationFrame};
+use super::notice::notice;
+use super::recording::{self, Tap};
+use super::summary::{Simulated, Spoken};
+use super::{Connect, Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Stop, Summary};
+use crate::adapter::{Adapter, Endpoint, WebSocketConnector};
+use crate::automation::server::{ListenSettings, Server};
+use crate::automation::{Automation, Control, Faulty};
+use crate::bank;
+use crate::engine::Engine;
+use crate::pace::{Exchange, Listener, Simulation, WallClock, bell, drive};
+use crate::plant::Plant;
+
+/// Notices that may wait to be read. A server that sends nothing but garbage must not fill the memory with complaints.
+pub(super) const NOTICES: usize = 1_024;
+
+/// How often the simulation shows itself.
+pub(super) const FRAME_INTERVAL: Duration = Duration::from_millis(50);
+
+/// Starts a run of `plant` at `speed` simulated seconds a second.
+pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, speed: f64) -> Result<Handle, RunError> {
+    let engine = Engine::new(&plant, options.step, options.seed)?;
+    let (server, endpoint, place) = reach(connect, &plant)?;
+    let mut connector = WebSocketConnector::new();
+    connector.configure(options.settings(&plant, endpoint))?;
+    connector.init(&plant.signal_map);
+    connector.connect();
+    let facts = Facts::new(options, plant, place);
+    let (bell, listener) = bell().map_err(RunError::Thread)?;
+    let (recording, tap, journal) = recording::start(options, &facts)?;
+
+    let (simulation_side, io_side) = bank::new(&facts.plant.signal_map);
+    let stop = Stop::default();
+    let (say, notices) = bounded(NOTICES);
+    let (simulation_frames, simulation_viewer) = live::channel();
+    let (exchange_frames, exchange_viewer) = live::channel();
+    let io = Io {
+        exchange: Exchange::new(connector, io_side, tap, facts.rates),
+        frames: exchange_frames,
+        say,
+        stop: stop.clone(),
+        spoken: Spoken::default(),
+    };
+    let io = spawn("io", move || io.run(listener))?;
+    let simulating = Simulating {
+        simulation: Simulation::new(engine, simulation_side, Some(bell), journal),
+        frames: simulation_frames,
+        stop: stop.clone(),
+        steps: options.steps(),
+        speed,
+    };
+    let simulating = spawn("simulation", move || simulating.run())?;
+
+    let server = Arc::new(server);
+    let asked = Arc::clone(&server);
+    let summed = facts.clone();
+    let end = move || {
+        let simulated = simulating.join().map_err(|_| RunError::Died("simulation"))?;
+        let spoken = io.join().map_err(|_| RunError::Died("IO"))?.map_err(RunError::Thread)?;
+        let round_trip = round_trip(&server);
+        let recorded = recording.finish()?;
+        Ok(Summary::new(&summed, &simulated, &spoken, round_trip, recorded))
+    };
+    Ok(Handle {
+        facts,
+        stop,
+        notices,
+        simulation: simulation_viewer,
+        exchange: exchange_viewer,
+        round_trip: Box::new(move || round_trip(&asked)),
+        end: Box::new(end),
+    })
+}
+
+/// Where the automation is; starts it where it is embedded: on a free port, on the loopback interface alone.
+fn reach(connect: Connect, plant: &Plant) -> Result<(Option<Server>, Endpoint, ServerPlace), RunError> {
+    match connect {
+        Connect::Server(endpoint) => Ok((None, endpoint.clone(), ServerPlace::Foreign(endpoint))),
+        Connect::Embedded => {
+            let automation = Automation::new(plant.signal_map.clone(), Control::ByPlant)?;
+            let server = Server::start(ListenSettings::loopback(), Faulty::new(automation, &[], 0))?;
+            let address = server.address();
+            let endpoint = Endpoint::new(address.ip().to_string(), address.port());
+            Ok((Some(server), endpoint, ServerPlace::Embedded(address)))
+        }
+    }
+}
+
+fn round_trip(server: &Option<Server>) -> Quantiles {
+    let statistics = server.as_ref().and_then(Server::statistics);
+    statistics.map(|statistics| Quantiles::of_ns(&statistics.round_trip_ns)).unwrap_or_default()
+}
+
+fn spawn<T: Send + 'static>(name: &str, work: impl FnOnce() -> T + Send + 'static) -> Result<JoinHandle<T>, RunError> {
+    thread::Builder::new().name(name.to_owned()).spawn(work).map_err(RunError::Thread)
+}
+
+/// The simulation's thread.
+struct Simulating {
+    simulation: Simulation,
+    frames: Publisher<SimulationFrame>,
+    stop: Stop,
+    steps: Option<u64>,
+    speed: f64,
+}
+
+impl Simulating {
+    /// Simulates until the last step or until it is stopped. When it is done the bell is gone: that ends the IO thread.
+    fn run(self) -> Simulated {
+        let Simulating { mut simulation, frames, stop, steps, speed } = self;
+        let clock = WallClock::start();
+        let frame_steps = (FRAME_INTERVAL.as_secs_f64() * speed / simulation.engine().step().as_secs_f64()) as u64;
+        if steps != Some(0) {
+            let mut spare = SimulationFrame::default();
+            simulation.pace(speed, |simulation| {
+                let made = simulation.timing().steps;
+                if made % frame_steps.max(1) == 0 {
+                    spare.fill(simulation);
+                    spare = frames.publish(std::mem::take(&mut spare)).unwrap_or_default();
+                }
+                match stop.is_asked() || steps.is_some_and(|steps| made >= steps) {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
+            });
+        }
+        Simulated::of(&simulation, clock.now())
+    }
+}
+
+/// The IO thread.
+struct Io {
+    exchange: Exchange<WebSocketConnector, Tap>,
+    frames: Publisher<ExchangeFrame>,
+    say: Sender<Notice>,
+    stop: Stop,
+    spoken: Spoken,
+}
+
+impl Io {
+    /// Speaks with the automation until the simulation is over and the session is closed.
+    fn run(mut self, listener: Listener) -> io::Result<Spoken> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let clock = WallClock::start();
+        let Io { exchange, frames, say, stop, spoken } = &mut self;
+        runtime.block_on(async {
+            let ears = listener.listen()?;
+            drive(exchange, ears, clock, |exchange, now| {
+                let connector = exchange.adapter();
+                while let Some(event) = connector.poll_event() {
+                    spoken.take(&event);
+                    // Where nobody reads them fast enough, the newest are left out.
+                    notice(&event, now).map(|notice| say.try_send(notice));
+                    if event.is_final_refusal() {
+                        stop.stop();
+                    }
+                }
+                spoken.traffic = connector.traffic();
+                frames.publish(ExchangeFrame { connected: connector.is_connected(), traffic: spoken.traffic });
+            })
+            .await;
+            io::Result::Ok(())
+        })?;
+        let Io { exchange, spoken, .. } = self;
+        exchange.dispose().finish();
+        Ok(spoken)
+    }
+}
