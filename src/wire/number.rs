@@ -16,6 +16,14 @@ const DIGITS_LIMIT: i64 = 37;
 ///
 /// `1.0`, `1e2` and `0.5e1` are integers; so is `1.5` with a shift of 1.
 pub(super) fn integer(text: &str, shift: i64) -> Result<i128, NotInteger> {
+    match text.parse::<i64>() {
+        // As nearly every integer is written.
+        Ok(plain) if shift == 0 => Ok(i128::from(plain)),
+        _ => any_integer(text, shift),
+    }
+}
+
+fn any_integer(text: &str, shift: i64) -> Result<i128, NotInteger> {
     let (negative, magnitude) = match text.strip_prefix('-') {
         Some(magnitude) => (true, magnitude),
         None => (false, text),

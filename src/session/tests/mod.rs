@@ -8,7 +8,7 @@ mod querying;
 mod sweep;
 mod values;
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
 use super::*;
@@ -19,6 +19,11 @@ use crate::wire::to_base64;
 
 /// Commands and reports of several types.
 fn map() -> Arc<SignalMap> {
+    static MAP: LazyLock<Arc<SignalMap>> = LazyLock::new(build_map);
+    Arc::clone(&MAP)
+}
+
+fn build_map() -> Arc<SignalMap> {
     let signal = |name: &str, ty: &str, direction, range: Option<(f64, f64)>, unit: &str| {
         let (instance, property) = name.split_once('.').expect("an instance and a property");
         Signal {
