@@ -3,8 +3,10 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use kinetwin::device::KINDS;
+use kinetwin::engine::Engine;
 use kinetwin::plant::embedded::Embedded;
 use kinetwin::plant::{ModelError, load};
 use kinetwin::prototype::source::{Layered, Source, SourceError};
@@ -33,7 +35,14 @@ fn cases() -> Vec<String> {
 
 fn error(case: &str) -> ModelError {
     let model = format!("tests/faulty-models/{case}");
-    load(&Layered(Disk, Embedded), &model, KINDS).err().unwrap_or_else(|| panic!("{case} is no faulty model"))
+    let plant = match load(&Layered(Disk, Embedded), &model, KINDS) {
+        Ok(plant) => plant,
+        Err(error) => return error,
+    };
+    // What only shows when the plant is built is told in its file as well.
+    let error = Engine::new(&plant, Duration::from_millis(1), 0).err();
+    let fault = error.and_then(|error| error.fault(&plant)).unwrap_or_else(|| panic!("{case} is no faulty model"));
+    ModelError::Faulty(fault.into())
 }
 
 #[test]

@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use kinetwin::device::KINDS;
+use kinetwin::engine::Engine;
 use kinetwin::plant::embedded::Embedded;
 use kinetwin::plant::{Parameter, ParameterValue, Plant, load};
 use kinetwin::prototype::source::{Layered, Memory};
@@ -68,6 +70,16 @@ fn every_signals_map_is_what_its_plant_gives() {
         let found = read(file, &text).unwrap_or_else(|faults| panic!("{faults}"));
         assert!(differences(&plant.signal_map, &found).is_empty(), "{:#?}", differences(&plant.signal_map, &found));
         assert_eq!(text, write(&plant.signal_map), "{file} is what `kinetwin signals-map {model}` writes");
+    }
+}
+
+#[test]
+fn every_model_runs() {
+    for model in MODELS {
+        let plant = plant(model);
+        let mut engine =
+            Engine::new(&plant, Duration::from_millis(1), 0).unwrap_or_else(|error| panic!("{model}: {error}"));
+        assert_eq!(engine.tick(&[]).len(), plant.signal_map.signals().len(), "{model}");
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::Engine;
 use crate::device::KINDS;
 use crate::plant::{
-    AdapterSettings, InitialPart, Instance, Parameter, ParameterValue, Parameters, PartKind, Plant, Pose, Task,
+    AdapterSettings, InitialPart, Instance, Parameter, ParameterValue, Parameters, PartKind, Places, Plant, Pose, Task,
 };
 use crate::prototype::kind::{KindDescriptor, ParameterType, PortType};
 use crate::signal_map::{RateClass, RegisterId, Signal, SignalMap};
@@ -82,6 +82,7 @@ impl Bench {
             instances: self.instances,
             parts: self.parts,
             signal_map: Arc::new(SignalMap::new("bench", self.signals).expect("names that differ")),
+            places: Places::default(),
         }
     }
 

@@ -12,6 +12,7 @@ use crate::kinematics::{Along, Block, DPose3, DQuat, DVec3, FrameId, FrameTree, 
 use crate::plant::{InitialPart, Instance, Plant, Pose, Task};
 use crate::signal_map::Direction;
 use crate::time::Instant;
+use crate::xml::Fault;
 
 /// Why a plant cannot be run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -31,6 +32,32 @@ pub enum BuildError {
     Neighbour { instance: String, property: &'static str, found: String, expected: &'static str },
     #[error("part {index} of the plant (counted from 1), {name}, {problem}")]
     Part { index: usize, name: String, problem: String },
+}
+
+impl BuildError {
+    /// The error as a fault in the plant's file; `None` where it is about none, or the plant was read from none.
+    pub fn fault(&self, plant: &Plant) -> Option<Fault> {
+        let places = &plant.places;
+        // What the file sets is wrong there; a default is wrong where the instance leaves it alone.
+        let parameter = |instance: &str, name: &'static str| match places.parameter(instance, name) {
+            Some(place) => Some((place, format!("expected another {name}"))),
+            None => Some((places.instance(instance)?, format!("expected a property that sets {name}"))),
+        };
+        let (place, expected) = match self {
+            BuildError::NoStep | BuildError::Effect(_) => return None,
+            BuildError::Device(error) => parameter(&error.instance, error.parameter)?,
+            BuildError::Neighbour { instance, property, expected, .. } => {
+                (parameter(instance, property)?.0, format!("expected {expected}"))
+            }
+            BuildError::Tilted { instance } => {
+                (places.instance(instance)?, "expected rx and ry of its pose 0".to_owned())
+            }
+            BuildError::Part { index, .. } => {
+                (places.part(index - 1)?, "expected a part that can stand there".to_owned())
+            }
+        };
+        Some(place.fault(self.to_string(), expected))
+    }
 }
 
 impl Engine {

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::file::{AdapterDeclaration, InstanceDeclaration, PartDeclaration, PlantFile};
-use super::instance::{Built, build};
-use super::{AdapterSettings, EMBEDDED_HOST, InitialPart, Plant};
+use super::instance::build;
+use super::{AdapterSettings, EMBEDDED_HOST, InitialPart, Places, Plant};
 use crate::prototype::kind::KindDescriptor;
 use crate::prototype::source::{Source, join};
 use crate::prototype::{self, Prototype};
@@ -46,19 +46,24 @@ pub(super) fn assemble(
     let prototypes = load_prototypes(source, &file.instances, kinds, faults);
     let tolerances = Tolerances { plant: file.tolerance, default: DEFAULT_TOLERANCE };
     let (mut instances, mut signals, mut references) = (Vec::new(), Vec::new(), Vec::new());
+    let mut places = Places::default();
     for declaration in &file.instances {
         let Some(prototype) = prototypes.get(&key(declaration)).and_then(Option::as_ref) else { continue };
-        let Built { instance, references: named } = build(declaration, prototype, tolerances, &mut signals, faults);
-        instances.push(instance);
-        references.extend(named);
+        let built = build(declaration, prototype, tolerances, &mut signals, faults);
+        let name = &built.instance.name;
+        places.instances.insert(name.clone(), declaration.name.place.clone());
+        places.parameters.extend(built.set.into_iter().map(|(parameter, place)| ((name.clone(), parameter), place)));
+        instances.push(built.instance);
+        references.extend(built.references);
     }
     // The names alone suffice: an instance whose prototype is wrong is there all the same.
     let names: Vec<&str> = file.instances.iter().map(|instance| instance.name.value.as_str()).collect();
     references.iter().for_each(|reference| look_up(reference, &names, faults));
+    places.parts = file.parts.iter().map(|part| part.place.clone()).collect();
     let parts = file.parts.iter().map(|part| initial_part(part, &names, faults)).collect();
     let name = file.name.value.clone();
     let signal_map = signal_map(&file.name, signals, faults)?;
-    Some(Plant { name, adapter: adapter(file.adapter), instances, parts, signal_map: Arc::new(signal_map) })
+    Some(Plant { name, adapter: adapter(file.adapter), instances, parts, signal_map: Arc::new(signal_map), places })
 }
 
 /// What an instance's prototype is found by: the folder it is looked for from, and its name.

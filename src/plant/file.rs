@@ -10,7 +10,7 @@ use crate::prototype::words;
 use crate::signal_map::xml::unit;
 use crate::time::parse_duration;
 use crate::value::{Quantity, Unit};
-use crate::xml::{Element, Faults, Located};
+use crate::xml::{Element, Faults, Located, Place};
 
 /// A `<plant>`.
 #[derive(Clone, Debug)]
@@ -60,6 +60,7 @@ pub(super) struct PropertyDeclaration {
 /// A `<part>`.
 #[derive(Clone, Debug)]
 pub(super) struct PartDeclaration {
+    pub place: Place,
     pub kind: PartKind,
     pub at: Option<Located<String>>,
     pub pose: Pose,
@@ -257,7 +258,13 @@ fn part(element: &Element, faults: &mut Faults) -> Option<PartDeclaration> {
     let kinds = [("box", PartKind::Box), ("pallet", PartKind::Pallet)];
     let kind = element.required_choice("kind", &kinds, faults);
     let (size, pose) = (size(element, faults), pose(element, faults));
-    Some(PartDeclaration { kind: kind?, at: element.attribute("at").cloned(), pose, size: size? })
+    Some(PartDeclaration {
+        place: element.name.place.clone(),
+        kind: kind?,
+        at: element.attribute("at").cloned(),
+        pose,
+        size: size?,
+    })
 }
 
 fn size(element: &Element, faults: &mut Faults) -> Option<[f64; 3]> {

@@ -14,16 +14,21 @@ use crate::signal_map::{Kind, RegisterId, Signal};
 use crate::value::{ElementaryType, Unit};
 use crate::xml::{Fault, Faults, Located, Place, nearest, one_of};
 
-/// An instance, and the instances that it names, each where it names it.
+/// An instance and what it says where.
 pub(super) struct Built {
     pub instance: Instance,
+    /// The instances that it names.
     pub references: Vec<Located<String>>,
+    /// The parameters of its tasks that the plant's file sets.
+    pub set: Vec<(&'static str, Place)>,
 }
 
 /// What something that can be set has as its value.
 #[derive(Clone)]
 struct Resolved {
     text: Located<String>,
+    /// Whether the plant's file says so.
+    is_set: bool,
     /// The unit of a number without one.
     unit: Option<Unit>,
     /// The tolerance that the instance gives it.
@@ -42,14 +47,14 @@ pub(super) fn build(
 ) -> Built {
     refuse_unknown(declaration, prototype, faults);
     let settings = Settings::resolve(declaration, prototype, tolerances, faults);
-    let mut references = Vec::new();
+    let (mut references, mut set) = (Vec::new(), Vec::new());
     let mut tasks: Vec<Task> = prototype
         .tasks
         .iter()
         .map(|task| Task {
             name: task.name.value.clone(),
             kind: task.kind,
-            parameters: settings.parameters(task, &mut references, faults),
+            parameters: settings.parameters(task, &mut references, &mut set, faults),
             ports: vec![None; task.kind.ports.len()],
         })
         .collect();
@@ -79,7 +84,7 @@ pub(super) fn build(
         tasks,
         effects: declaration.effects.clone(),
     };
-    Built { instance, references }
+    Built { instance, references, set }
 }
 
 fn refuse_unknown(declaration: &InstanceDeclaration, prototype: &Prototype, faults: &mut Faults) {
@@ -150,7 +155,8 @@ impl<'a> Settings<'a> {
         let replaced = substitute(text, self.instance, |name| find(name).map(|resolved| resolved.text.value.as_str()));
         // That every reference is there was checked with the prototype.
         let text = Located::new(replaced.unwrap_or_else(|_| text.clone()), &setting.default.place);
-        Resolved { text, unit: setting.unit, set_tolerance: None, declared_tolerance: setting.tolerance }
+        let (unit, declared_tolerance) = (setting.unit, setting.tolerance);
+        Resolved { text, is_set: false, unit, set_tolerance: None, declared_tolerance }
     }
 
     /// Whether a signal's condition holds.
@@ -163,11 +169,13 @@ impl<'a> Settings<'a> {
         value.is_some_and(|resolved| condition.values.iter().any(|value| value == resolved.text.value.trim()))
     }
 
-    /// Every parameter of a task; the instances that they name are added to `references`.
+    /// Every parameter of a task; the instances that they name are added to `references`, and those that the plant's file
+    /// sets to `set`.
     fn parameters(
         &self,
         task: &prototype::Task,
         references: &mut Vec<Located<String>>,
+        set: &mut Vec<(&'static str, Place)>,
         faults: &mut Faults,
     ) -> Parameters {
         let resolved: Vec<Resolved> = (0..task.kind.parameters.len())
@@ -176,7 +184,7 @@ impl<'a> Settings<'a> {
                 Some((_, Assignment::Own(setting))) => self.own(setting),
                 None => {
                     let text = Located::new(task.kind.parameters[index].default.to_owned(), &task.name.place);
-                    Resolved { text, unit: None, set_tolerance: None, declared_tolerance: None }
+                    Resolved { text, is_set: false, unit: None, set_tolerance: None, declared_tolerance: None }
                 }
             })
             .collect();
@@ -197,6 +205,9 @@ impl<'a> Settings<'a> {
                 && !name.is_empty()
             {
                 references.push(Located::new(name.clone(), &resolved.text.place));
+            }
+            if resolved.is_set {
+                set.push((descriptor.name, resolved.text.place.clone()));
             }
             let Tolerances { plant, default } = self.tolerances;
             let tolerance = resolved.set_tolerance.or(plant).or(resolved.declared_tolerance).unwrap_or(default);
@@ -256,6 +267,7 @@ fn is_rotary(task: &Task) -> bool {
 fn of_instance_or_default(setting: &Setting, set: Option<&PropertyDeclaration>) -> Resolved {
     Resolved {
         text: set.map_or(&setting.default, |set| &set.value).clone(),
+        is_set: set.is_some(),
         unit: setting.unit,
         set_tolerance: set.and_then(|set| set.tolerance),
         declared_tolerance: setting.tolerance,

@@ -8,6 +8,7 @@ mod file;
 mod instance;
 mod load;
 mod parameter;
+mod places;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use crate::signal_map::{RegisterId, SignalMap};
 
 pub use self::effect_spec::{EffectPlace, EffectSpec};
 pub use self::load::{ModelError, load};
+pub use self::places::Places;
 
 /// A plant, ready to be built into an engine.
 #[derive(Clone, Debug)]
@@ -30,6 +32,8 @@ pub struct Plant {
     pub parts: Vec<InitialPart>,
     /// All signals; its registers are what the tasks' ports are bound to.
     pub signal_map: Arc<SignalMap>,
+    /// Where in its files it says what.
+    pub places: Places,
 }
 
 impl Plant {
