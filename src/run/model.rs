@@ -1,8 +1,11 @@
 //! Where models come from: a folder on disk, or the catalogue that is compiled in.
 
 use std::io::ErrorKind;
+use std::time::Duration;
 
+use super::RunError;
 use crate::device;
+use crate::engine::Engine;
 use crate::plant::embedded::Embedded;
 use crate::plant::{self, ModelError, Plant};
 use crate::prototype::source::{Layered, Source, SourceError};
@@ -35,9 +38,28 @@ pub fn load(model: &str) -> Result<Plant, ModelError> {
     plant::load(&SOURCE, model, device::KINDS)
 }
 
+/// Builds the engine of `plant`. What the plant's files have to do with a failure is told as an error of the model, with
+/// file and line.
+pub fn engine(plant: &Plant, step: Duration, seed: u64) -> Result<Engine, RunError> {
+    Engine::new(plant, step, seed).map_err(|error| match error.fault(plant) {
+        Some(fault) => ModelError::Faulty(fault.into()).into(),
+        None => error.into(),
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_shows_only_when_the_plant_is_built_is_told_in_its_file() {
+        let plant = load("tests/faulty-models/barrier-beyond-the-belt").expect("a plant");
+        let error = engine(&plant, Duration::from_millis(1), 0).err().expect("no engine").to_string();
+        assert!(
+            error.starts_with("tests/faulty-models/barrier-beyond-the-belt/plant.xml:2:19: Short: barrierB"),
+            "{error}"
+        );
+    }
 
     #[test]
     fn a_folder_is_no_file() {

@@ -48,7 +48,7 @@ impl Stepper {
     }
 
     fn of(options: &Options, plant: Arc<Plant>) -> Result<Stepper, RunError> {
-        let engine = Engine::new(&plant, options.step, options.seed)?;
+        let engine = model::engine(&plant, options.step, options.seed)?;
         let automation = Automation::new(plant.signal_map.clone(), Control::ByPlant)?;
         let mut connector = InProcess::to(Embedded { automation, connection: ConnectionId(0) });
         connector.configure(options.settings(&plant, Endpoint::new("localhost", 1)))?;

@@ -12,12 +12,11 @@ use super::live::{self, ExchangeFrame, Publisher, SimulationFrame};
 use super::notice::notice;
 use super::recording::{self, Tap};
 use super::summary::{Simulated, Spoken};
-use super::{Connect, Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Stop, Summary};
+use super::{Connect, Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Stop, Summary, model};
 use crate::adapter::{Adapter, Endpoint, WebSocketConnector};
 use crate::automation::server::{ListenSettings, Server};
 use crate::automation::{Automation, Control, Faulty};
 use crate::bank;
-use crate::engine::Engine;
 use crate::pace::{Exchange, Listener, Simulation, WallClock, bell, drive};
 use crate::plant::Plant;
 
@@ -29,7 +28,7 @@ pub(super) const FRAME_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Starts a run of `plant` at `speed` simulated seconds a second.
 pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, speed: f64) -> Result<Handle, RunError> {
-    let engine = Engine::new(&plant, options.step, options.seed)?;
+    let engine = model::engine(&plant, options.step, options.seed)?;
     let (server, endpoint, place) = reach(connect, &plant)?;
     let mut connector = WebSocketConnector::new();
     connector.configure(options.settings(&plant, endpoint))?;
