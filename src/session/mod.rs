@@ -24,6 +24,58 @@
 //! [`Staged`] holds what one `SendValue` brought: its good values by register, in the order in which they stand, each
 //! register once (the last good one wins), its text for the trace, and its faults, which the session has already
 //! answered. Two messages are never merged: what they set is two events, and when they act is the bank's business.
+//!
+//! # Both ends in one place
+//!
+//! ```
+//! # use std::sync::Arc;
+//! # use kinetwin::session::*;
+//! # use kinetwin::signal_map::*;
+//! # use kinetwin::value::{Unit, Value};
+//! # use kinetwin::time::Instant;
+//! # let signal = |name: &str, ty: &str, direction| Signal {
+//! #     name: name.into(), ty: ty.parse().unwrap(), direction, kind: Kind::Edge, rate: RateClass::HighFrequency,
+//! #     unit: Unit::ONE, min: None, max: None, instance: String::new(), task: String::new(), property: String::new(),
+//! # };
+//! let map = Arc::new(SignalMap::new("plant", vec![
+//!     signal("Pusher.command", "DINT", Direction::Command),
+//!     signal("Pusher.limitExtended", "BOOL", Direction::Report),
+//! ])?);
+//! let mut client = Client::new(ClientSettings::new("run 1"), Arc::clone(&map));
+//! let mut server = Server::new(ServerSettings::new("automation"), Arc::clone(&map));
+//! let now = Instant::ZERO;
+//!
+//! // The client asks for a connection, and here it is.
+//! assert_eq!(client.poll(), Some(Output::Event(ClientEvent::Dial { attempt: 1 })));
+//! client.handle(now, Input::Opened);
+//!
+//! // Carry every message to the other end, until neither has more to say.
+//! let mut exchange = |client: &mut Client, server: &mut Server| {
+//!     let mut arrived = Vec::new();
+//!     loop {
+//!         match (client.poll(), server.poll()) {
+//!             (None, None) => return arrived,
+//!             (from_client, from_server) => {
+//!                 if let Some(Output::Transmit(text)) = from_client {
+//!                     server.handle(now, Input::Text(&text));
+//!                 }
+//!                 match from_server {
+//!                     Some(Output::Transmit(text)) => client.handle(now, Input::Text(&text)),
+//!                     Some(Output::Event(ServerEvent::Values(staged))) => arrived.extend(staged.values),
+//!                     _ => {}
+//!                 }
+//!             }
+//!         }
+//!     }
+//! };
+//! exchange(&mut client, &mut server);
+//! assert!(client.is_established() && server.is_established());
+//!
+//! let extended = (map.register("Pusher.limitExtended").unwrap(), Value::Bool(true));
+//! client.send(now, &[extended.clone()]);
+//! assert_eq!(exchange(&mut client, &mut server), [extended]);
+//! # Ok::<(), DuplicateSignal>(())
+//! ```
 
 mod client;
 mod exchange;

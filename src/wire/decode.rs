@@ -7,7 +7,8 @@ use super::message::{
     Connect, ConnectReply, Entry, Fault, Interface, InterfaceSignal, Message, ResultCode, SignalSelection,
 };
 use super::number::{NotInteger, integer};
-use super::scan::{Raw, ScanError, Scanner, Shape, abbreviated};
+use super::raw::{Raw, Shape, abbreviated};
+use super::scan::{ScanError, Scanner};
 
 /// Why a text is no message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

@@ -26,7 +26,8 @@
 use std::borrow::Cow;
 
 use super::number::integer;
-use super::scan::{Raw, ScanError, Scanner, Shape, abbreviated};
+use super::raw::{Raw, Shape, abbreviated};
+use super::scan::{ScanError, Scanner};
 use super::value::{NotFinite, TextForm, write_number, write_string, write_value};
 use crate::value::Value;
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::time::Duration;
 
-use super::scan::Raw;
+use super::raw::Raw;
 
 /// A message of the CPS-Protocol. What can be borrowed from the text it was read from, is.
 #[derive(Clone, Debug, PartialEq)]

@@ -37,6 +37,7 @@ mod encode;
 pub mod io_data;
 mod message;
 mod number;
+mod raw;
 mod scan;
 #[cfg(test)]
 mod tests;
@@ -47,7 +48,8 @@ pub use encode::SendValueText;
 pub use message::{
     Connect, ConnectReply, Entry, Fault, Interface, InterfaceSignal, Message, ResultCode, SignalSelection,
 };
-pub use scan::{DEPTH_LIMIT, Raw, ScanError, Shape};
+pub use raw::{Raw, Shape};
+pub use scan::{DEPTH_LIMIT, ScanError};
 pub use value::{NotFinite, TextForm, Unfit, read_value, write_value};
 
 use base64::Engine as _;
