@@ -36,6 +36,8 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 pub enum Command {
     Run(RunArguments),
+    Check(CheckArguments),
+    SignalsMap(SignalsMapArguments),
 }
 
 /// Runs a model against its automation.
@@ -50,7 +52,6 @@ pub struct RunArguments {
     /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue (models/rig)
     ///
     /// What is on the disk counts before what the program carries with it, whose names work from any folder.
-    #[arg(default_value = "models/depalletizer", hide_default_value = true, required = true)]
     pub model: String,
     #[command(flatten)]
     pub connection: ConnectionArguments,
@@ -102,6 +103,61 @@ Exit codes:
   0  the run came to its end, or to Ctrl-C
   1  the server never answered, or refused for good (5xx)
   2  bad input or use; nothing was started";
+
+/// Checks a model and its signals map, and with --connect an automation's interface against it.
+///
+/// The model is read as for a run, and the signals map that its plant's file names is compared with the one that follows
+/// from the plant. With --connect the server is asked for its interface (QueryAll), which opens no session, and every
+/// signal that is missing, superfluous, or of another type or direction is named.
+#[derive(Debug, Args)]
+#[command(after_long_help = CHECK_HELP)]
+pub struct CheckArguments {
+    /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue (models/rig)
+    pub model: String,
+    #[command(flatten)]
+    pub connection: ConnectionArguments,
+    /// Prints the result as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const CHECK_HELP: &str = "\
+Examples:
+  kinetwin check models/rig
+  kinetwin check ./my-plant --connect ws://192.168.0.10:8080
+
+Exit codes:
+  0  all fits
+  1  something does not; each mismatch is named
+  2  the model cannot be read, or the server cannot be asked";
+
+/// Writes the signals map that follows from a model.
+///
+/// The map lists every signal that model and automation exchange, with type, direction, kind, rate class, unit and range,
+/// as XML. Without options it is printed.
+#[derive(Debug, Args)]
+#[command(after_long_help = SIGNALS_MAP_HELP)]
+pub struct SignalsMapArguments {
+    /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue (models/rig)
+    pub model: String,
+    /// Writes the map to a file
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Compares a file with the map, and writes nothing
+    #[arg(long, value_name = "FILE", conflicts_with = "output")]
+    pub check: Option<PathBuf>,
+}
+
+const SIGNALS_MAP_HELP: &str = "\
+Examples:
+  kinetwin signals-map models/rig
+  kinetwin signals-map ./my-plant -o signals-maps/my-plant.xml
+  kinetwin signals-map models/rig --check signals-maps/rig.xml
+
+Exit codes:
+  0  the map was written, or the file is the map
+  1  the file differs from the map; each difference is named
+  2  the model or the file cannot be read";
 
 /// How the automation is reached.
 #[derive(Debug, Args)]

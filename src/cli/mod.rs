@@ -4,12 +4,24 @@
 //! that never had a session), 2 on bad input or use.
 
 mod arguments;
+mod check;
+mod log;
+mod picture;
+mod plan;
+mod report;
 mod run;
+mod signals;
+mod status;
+mod terminal;
 
+use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use clap::Parser;
+use miette::GraphicalTheme;
 
+use crate::plant::ModelError;
+use crate::run::RunError;
 use arguments::{Arguments, Command, RunArguments};
 
 /// How a command ended.
@@ -32,6 +44,8 @@ pub fn main() -> ExitCode {
     let answer = match arguments.command {
         None => run::run(&RunArguments::main_job()),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Check(arguments)) => check::check(&arguments),
+        Some(Command::SignalsMap(arguments)) => check::signals_map(&arguments),
     };
     match answer {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
@@ -43,8 +57,35 @@ pub fn main() -> ExitCode {
     }
 }
 
-impl<E: std::error::Error> From<E> for Failure {
-    fn from(error: E) -> Failure {
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Failure {
         Failure(format!("error: {error}"))
+    }
+}
+
+impl From<serde_json::Error> for Failure {
+    fn from(error: serde_json::Error) -> Failure {
+        Failure(format!("error: {error}"))
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Failure {
+        match error {
+            RunError::Model(error) => error.into(),
+            error => Failure(format!("error: {error}")),
+        }
+    }
+}
+
+impl From<ModelError> for Failure {
+    fn from(error: ModelError) -> Failure {
+        let width = crossterm::terminal::size().map_or(100, |(columns, _)| usize::from(columns).clamp(60, 120));
+        let colours = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|no| no.is_empty());
+        let theme = if colours { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+        match &error {
+            ModelError::Faulty(_) => Failure(error.render(theme, width)),
+            error => Failure(format!("error: {error}")),
+        }
     }
 }

@@ -1,26 +1,170 @@
 //! `kinetwin run`.
 
-use super::arguments::{ConnectionArguments, RunArguments};
-use super::{Answer, Failure};
-use crate::run::{self, Options, RecordTo};
+use std::time::Duration;
 
+use crossbeam::channel::{RecvTimeoutError, TryRecvError};
+
+use super::arguments::{ConnectionArguments, RunArguments};
+use super::log::Log;
+use super::report;
+use super::signals::Interruption;
+use super::status::Status;
+use super::terminal::{Key, Terminal};
+use super::{Answer, Failure};
+use crate::pace::WallClock;
+use crate::run::{self, Gravity, Handle, Notice, Options, RecordTo, Summary};
+
+/// Runs a model to its end.
 pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
-    let handle = run::start(&options(arguments)?)?;
-    while let Ok(notice) = handle.notices().recv() {
-        eprintln!("{:>10} {}", notice.at, notice.text);
+    let options = options(arguments)?;
+    let log = Log::begin();
+    let handle = run::start(&options)?;
+    let interruption = Interruption::watch(handle.stopper())?;
+    let screen = if arguments.json { None } else { Terminal::take()? };
+    match screen {
+        Some(screen) => show(&handle, screen, &interruption, &log)?,
+        None => tell(&handle),
     }
     let summary = handle.finish()?;
-    println!("{}", serde_json::to_string(&summary)?);
-    Ok(if summary.sessions == 0 || summary.refused.is_some() { Answer::No } else { Answer::Yes })
+    if arguments.json {
+        println!("{}", serde_json::to_string(&summary)?);
+    } else {
+        print!("{}", report::text(&summary));
+    }
+    Ok(answer(&summary))
+}
+
+fn answer(summary: &Summary) -> Answer {
+    match (&summary.refused, summary.sessions) {
+        (Some(refusal), _) => {
+            eprintln!("error: the server refused the session for good: {refusal}");
+            Answer::No
+        }
+        (None, 0) => {
+            eprintln!("error: the server never accepted a session; the model ran without its automation");
+            Answer::No
+        }
+        (None, _) => Answer::Yes,
+    }
+}
+
+/// How often the screen is drawn.
+const REDRAW: Duration = Duration::from_millis(100);
+/// How often the embedded automation is asked for its measurement.
+const ASK: Duration = Duration::from_secs(1);
+/// How many warnings are told again when the screen is gone.
+const TOLD_AGAIN: usize = 20;
+
+/// Shows the run on the terminal until it ends.
+fn show(handle: &Handle, mut screen: Terminal, interruption: &Interruption, log: &Log) -> Result<(), Failure> {
+    interruption.set_screen(true);
+    log.to_screen();
+    let clock = WallClock::start();
+    let mut status = Status::new(handle.facts());
+    let mut warnings = Vec::new();
+    let mut asked = clock.now();
+    loop {
+        let now = clock.now();
+        for line in log.take() {
+            status.note(Notice { at: now, gravity: Gravity::Warning, text: line });
+        }
+        let ended = loop {
+            match handle.notices().try_recv() {
+                Ok(notice) => {
+                    if notice.gravity > Gravity::Information {
+                        warnings.push(notice.clone());
+                    }
+                    status.note(notice);
+                }
+                Err(TryRecvError::Empty) => break false,
+                Err(TryRecvError::Disconnected) => break true,
+            }
+        };
+        if ended {
+            break;
+        }
+        status.simulation = handle.simulation().unwrap_or(status.simulation);
+        status.exchange = handle.exchange().unwrap_or(status.exchange);
+        if now.since(asked) >= ASK {
+            asked = now;
+            status.round_trip = handle.round_trip();
+        }
+        status.ending = interruption.is_asked();
+        status.sample(now);
+        let (columns, rows) = screen.size();
+        screen.show(&status.draw(columns, rows))?;
+        if let Some(Key::End) = screen.key(REDRAW)? {
+            interruption.interrupt();
+        }
+    }
+    drop(screen);
+    interruption.set_screen(false);
+    log.to_standard_error();
+    let skipped = warnings.len().saturating_sub(TOLD_AGAIN);
+    if skipped > 0 {
+        eprintln!("({skipped} earlier warnings are left out)");
+    }
+    warnings.iter().skip(skipped).for_each(say);
+    Ok(())
+}
+
+/// How often a run that has no screen says how far it is.
+const PROGRESS: Duration = Duration::from_secs(10);
+/// How many notices are told within a second; a server that sends nothing but garbage must not flood a log.
+const TOLD_A_SECOND: u32 = 20;
+
+/// Tells what happens on standard error until the run ends.
+fn tell(handle: &Handle) {
+    let clock = WallClock::start();
+    let (mut second, mut told, mut silenced) = (clock.now(), 0, 0);
+    let mut progress = clock.now() + PROGRESS;
+    let mut frame = None;
+    loop {
+        let now = clock.now();
+        if now.since(second) >= Duration::from_secs(1) {
+            if silenced > 0 {
+                eprintln!("{:>11}  ({silenced} more)", "");
+            }
+            (second, told, silenced) = (now, 0, 0);
+        }
+        match handle.notices().recv_timeout(Duration::from_millis(500)) {
+            Ok(notice) if told < TOLD_A_SECOND => {
+                told += 1;
+                say(&notice);
+            }
+            Ok(_) => silenced += 1,
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => break,
+        }
+        frame = handle.simulation().or(frame);
+        if let Some(frame) = frame.as_ref().filter(|_| now >= progress) {
+            progress += PROGRESS;
+            let (counts, timing) = (&frame.counts, (frame.overruns, frame.late_steps));
+            eprintln!(
+                "{:>11}  {} simulated; boxes {} in, {} out; {} overruns, {} late",
+                now.to_string(),
+                frame.now,
+                counts.boxes_in,
+                counts.boxes_out,
+                timing.0,
+                timing.1
+            );
+        }
+    }
+}
+
+fn say(notice: &Notice) {
+    let gravity = match notice.gravity {
+        Gravity::Information => "",
+        Gravity::Warning => "warning: ",
+        Gravity::Error => "error: ",
+    };
+    eprintln!("{:>11}  {gravity}{}", notice.at.to_string(), notice.text);
 }
 
 fn options(arguments: &RunArguments) -> Result<Options, Failure> {
     let RunArguments { connection, record, force, .. } = arguments;
     Ok(Options {
-        connect: connection.connect.clone(),
-        timeout: connection.timeout,
-        max_message: connection.max_message,
-        token: token(connection)?,
         duration: arguments.duration,
         step: arguments.step,
         high: arguments.hf,
@@ -28,12 +172,23 @@ fn options(arguments: &RunArguments) -> Result<Options, Failure> {
         speed: arguments.speed,
         seed: arguments.seed,
         record: record.clone().map(|path| RecordTo { path, replace: *force }),
-        ..Options::new(arguments.model.clone())
+        ..connecting(&arguments.model, connection)?
+    })
+}
+
+/// The options of a run of `model` that is reached as `connection` says.
+pub fn connecting(model: &str, connection: &ConnectionArguments) -> Result<Options, Failure> {
+    Ok(Options {
+        connect: connection.connect.clone(),
+        timeout: connection.timeout,
+        max_message: connection.max_message,
+        token: token(connection)?,
+        ..Options::new(model)
     })
 }
 
 /// The bearer token: from the file that is named, else from the environment.
-pub fn token(connection: &ConnectionArguments) -> Result<Option<String>, Failure> {
+fn token(connection: &ConnectionArguments) -> Result<Option<String>, Failure> {
     let text = match &connection.token_file {
         Some(path) => std::fs::read_to_string(path)
             .map_err(|error| Failure(format!("error: failed to read the token from {}: {error}", path.display())))?,

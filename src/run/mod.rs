@@ -9,6 +9,7 @@
 //! has another, and they meet over a real WebSocket. As fast as possible, or stepped by a caller ([`Stepper`]), all three
 //! take turns on one thread, in lock-step and in memory: each step waits until the automation has handled what was sent.
 
+mod ask;
 pub mod live;
 pub mod model;
 mod notice;
@@ -31,18 +32,25 @@ use crate::engine::BuildError;
 use crate::pace::Rates;
 use crate::plant::{ModelError, Plant};
 
+pub use ask::{Asked, ask};
 pub use notice::{Gravity, Notice};
 pub use options::{Connect, Options, RecordTo, Speed};
 pub use stepped::Stepper;
 pub use summary::{Quantiles, Summary};
 
 use live::{ExchangeFrame, SimulationFrame, Viewer};
+use model::MapState;
 
 /// Why a run cannot start, or could not be brought to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     #[error(transparent)]
     Model(#[from] ModelError),
+    #[error(
+        "{path} is not the signals map that the plant gives; kinetwin signals-map {model} -o {path} writes that one:\n  {}",
+        differences.join("\n  ")
+    )]
+    Map { model: String, path: String, differences: Vec<String> },
     #[error(transparent)]
     Build(#[from] BuildError),
     #[error(transparent)]
@@ -110,9 +118,13 @@ impl Facts {
 
     /// Prototypes in use.
     pub fn prototypes(&self) -> usize {
-        let names: std::collections::BTreeSet<&str> =
-            self.plant.instances.iter().map(|instance| instance.prototype.as_str()).collect();
-        names.len()
+        Facts::prototypes_of(&self.plant)
+    }
+
+    /// Prototypes that instances of `plant` use.
+    pub fn prototypes_of(plant: &Plant) -> usize {
+        let names = plant.instances.iter().map(|instance| instance.prototype.as_str());
+        names.collect::<std::collections::BTreeSet<&str>>().len()
     }
 }
 
@@ -201,6 +213,9 @@ impl Handle {
 pub fn start(options: &Options) -> Result<Handle, RunError> {
     let plant = Arc::new(model::load(&options.model)?);
     options.validate()?;
+    if let MapState::Differs { path, differences } = model::map_state(&plant)? {
+        return Err(RunError::Map { model: options.model.clone(), path, differences });
+    }
     match (options.speed, options.automation_of(&plant)) {
         (Speed::Wall(speed), connect) => wall::start(options, plant, connect, speed),
         (Speed::Max, Connect::Embedded) => stepped::start(options, plant),

@@ -9,6 +9,7 @@ use crate::engine::Engine;
 use crate::plant::embedded::Embedded;
 use crate::plant::{self, ModelError, Plant};
 use crate::prototype::source::{Layered, Source, SourceError};
+use crate::signal_map::xml;
 
 /// Files of the disk, from the working folder.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +46,35 @@ pub fn engine(plant: &Plant, step: Duration, seed: u64) -> Result<Engine, RunErr
         Some(fault) => ModelError::Faulty(fault.into()).into(),
         None => error.into(),
     })
+}
+
+/// What of a plant's signals map, as its file has it, is not as the plant gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MapState {
+    /// The plant's file names no map: it follows from the plant alone.
+    Unnamed,
+    /// There is no such file.
+    Absent(String),
+    /// The file is what the plant gives.
+    Same(String),
+    /// It is not; the differences, one line each.
+    Differs { path: String, differences: Vec<String> },
+}
+
+/// Compares the signals map that the file of `plant` names with the one that the plant gives.
+///
+/// # Errors
+/// There is a map, and it is none.
+pub fn map_state(plant: &Plant) -> Result<MapState, ModelError> {
+    let Some(path) = plant.adapter.signals_map.clone() else { return Ok(MapState::Unnamed) };
+    let text = match Disk.read(&path) {
+        Ok(text) => text,
+        Err(SourceError::NotFound { .. }) => return Ok(MapState::Absent(path)),
+        Err(error) => return Err(ModelError::Unreadable(error)),
+    };
+    let found = xml::read(&path, &text)?;
+    let differences = xml::differences(&plant.signal_map, &found);
+    Ok(if differences.is_empty() { MapState::Same(path) } else { MapState::Differs { path, differences } })
 }
 
 #[cfg(test)]

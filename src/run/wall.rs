@@ -82,7 +82,7 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
 }
 
 /// Where the automation is; starts it where it is embedded: on a free port, on the loopback interface alone.
-fn reach(connect: Connect, plant: &Plant) -> Result<(Option<Server>, Endpoint, ServerPlace), RunError> {
+pub(super) fn reach(connect: Connect, plant: &Plant) -> Result<(Option<Server>, Endpoint, ServerPlace), RunError> {
     match connect {
         Connect::Server(endpoint) => Ok((None, endpoint.clone(), ServerPlace::Foreign(endpoint))),
         Connect::Embedded => {
