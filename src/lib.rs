@@ -13,6 +13,7 @@ pub mod kinematics;
 pub mod pace;
 pub mod plant;
 pub mod prototype;
+pub mod replay;
 pub mod run;
 pub mod session;
 pub mod signal_map;

@@ -113,10 +113,16 @@ impl Engine {
     /// reports, or one that is no number, is passed over (the session refuses those). Returns all registers, by
     /// [`RegisterId`], as they are at [`Engine::now`] before the motion.
     pub fn tick(&mut self, inputs: &[(RegisterId, Value)]) -> &[Value] {
+        self.tick_for(inputs, self.step)
+    }
+
+    /// One step of another length. A replay of a real machine's recording takes commands and looks at reports at their
+    /// recorded instants, which lie between the steps.
+    pub fn tick_for(&mut self, inputs: &[(RegisterId, Value)], span: Duration) -> &[Value] {
         self.actuators(inputs);
         self.report();
-        self.joints();
-        self.parts_phase();
+        self.joints(span);
+        self.parts_phase(span);
         self.sensors();
         self.steps += 1;
         &self.registers
@@ -185,12 +191,12 @@ impl Engine {
         }
     }
 
-    fn joints(&mut self) {
-        let seconds = self.step.as_secs_f64();
+    fn joints(&mut self, span: Duration) {
+        let seconds = span.as_secs_f64();
         for unit in &mut self.units {
             unit.device.advance(seconds);
         }
-        self.now += self.step;
+        self.now += span;
         self.place_bodies();
     }
 
@@ -230,8 +236,8 @@ impl Engine {
         }
     }
 
-    fn parts_phase(&mut self) {
-        self.floor.advance(self.now, self.step.as_secs_f64());
+    fn parts_phase(&mut self, span: Duration) {
+        self.floor.advance(self.now, span.as_secs_f64());
     }
 
     fn sensors(&mut self) {

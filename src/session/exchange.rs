@@ -17,7 +17,7 @@ const SUGGESTIONS_PER_MESSAGE: usize = 8;
 
 /// One end of the exchange.
 #[derive(Debug)]
-pub(super) struct Exchange {
+pub(crate) struct Exchange {
     map: Arc<SignalMap>,
     /// The direction of the signals that this end sets.
     ours: Direction,
@@ -28,9 +28,9 @@ pub(super) struct Exchange {
 
 /// What became of one `SendValue`.
 #[derive(Debug)]
-pub(super) struct Receipt {
+pub(crate) struct Receipt {
     /// What it brought; or, if it brought nothing, why.
-    pub(super) outcome: Result<Staged, String>,
+    pub(crate) outcome: Result<Staged, String>,
     /// The `SendValueReply` that it deserves.
     pub(super) reply: Option<String>,
     /// How many entries had no name; they cannot be answered.
@@ -46,7 +46,7 @@ pub(super) struct Sending {
 }
 
 impl Exchange {
-    pub(super) fn new(map: Arc<SignalMap>, ours: Direction) -> Exchange {
+    pub(crate) fn new(map: Arc<SignalMap>, ours: Direction) -> Exchange {
         let seen = vec![(0, 0); map.signals().len()];
         Exchange { map, ours, seen, messages: 0 }
     }
@@ -56,7 +56,7 @@ impl Exchange {
     }
 
     /// Reads the entries of a `SendValue` whose text is `text`.
-    pub(super) fn receive(&mut self, text: &str, entries: &[Entry<'_>]) -> Receipt {
+    pub(crate) fn receive(&mut self, text: &str, entries: &[Entry<'_>]) -> Receipt {
         self.messages += 1;
         let mut values: Vec<(RegisterId, Value)> = Vec::with_capacity(entries.len());
         let mut faults = Vec::new();

@@ -88,6 +88,9 @@ mod server;
 #[cfg(test)]
 mod tests;
 
+/// For a replay: it must take from a recorded message what the session took from it.
+pub(crate) use exchange::Exchange;
+
 pub use client::{Client, ClientEvent, ClientSettings, Ending};
 pub use interface::{Mismatch, interface_of, mismatches};
 pub use query::{Query, QueryEvent};
