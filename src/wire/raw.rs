@@ -169,8 +169,10 @@ impl Iterator for Units<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use proptest::prelude::*;
+
+    use super::*;
+    use crate::wire::tests::texts;
 
     #[test]
     fn strings_lose_their_escapes() {
@@ -199,7 +201,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn strings_read_as_another_reader_reads_them(text in any::<String>()) {
+        fn strings_read_as_another_reader_reads_them(text in texts()) {
             let quoted = serde_json::json!(text).to_string();
             let raw = Raw::new(&quoted).expect("a string");
             let read = raw.as_str();

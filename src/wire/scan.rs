@@ -239,8 +239,10 @@ impl<'a> Scanner<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use proptest::prelude::*;
+
+    use super::*;
+    use crate::wire::tests::texts;
 
     #[track_caller]
     fn refused(text: &str, expect: &str) {
@@ -275,7 +277,7 @@ mod tests {
     }
 
     /// Texts that are JSON, nearly JSON, or not at all.
-    fn texts() -> impl Strategy<Value = String> {
+    fn nearly_json() -> impl Strategy<Value = String> {
         let token = prop::sample::select(vec![
             "{",
             "}",
@@ -308,7 +310,7 @@ mod tests {
             "1e400",
             "\u{a0}",
         ]);
-        prop_oneof![prop::collection::vec(token, 0..12).prop_map(|tokens| tokens.concat()), any::<String>()]
+        prop_oneof![prop::collection::vec(token, 0..12).prop_map(|tokens| tokens.concat()), texts()]
     }
 
     /// A well-formed JSON text, blanks in it.
@@ -316,14 +318,14 @@ mod tests {
         let leaf = prop_oneof![
             any::<f64>().prop_map(|n| serde_json::json!(n).to_string()),
             any::<i64>().prop_map(|n| n.to_string()),
-            any::<String>().prop_map(|s| serde_json::json!(s).to_string()),
+            texts().prop_map(|s| serde_json::json!(s).to_string()),
             Just("true".to_owned()),
             Just(" null\t".to_owned()),
         ];
         leaf.prop_recursive(6, 40, 5, |inner| {
             prop_oneof![
                 prop::collection::vec(inner.clone(), 0..5).prop_map(|v| format!("[{}]", v.join(" ,"))),
-                prop::collection::vec((any::<String>(), inner), 0..5).prop_map(|members| {
+                prop::collection::vec((texts(), inner), 0..5).prop_map(|members| {
                     let members = members.iter().map(|(k, v)| format!("{}:\n{v}", serde_json::json!(k)));
                     format!(" {{{} }}", members.collect::<Vec<_>>().join(","))
                 }),
@@ -334,7 +336,7 @@ mod tests {
     proptest! {
         /// serde_json reads the same grammar, by other code.
         #[test]
-        fn what_is_json_is_what_another_reader_takes(text in texts()) {
+        fn what_is_json_is_what_another_reader_takes(text in nearly_json()) {
             let other = serde_json::from_str::<serde::de::IgnoredAny>(&text).is_ok();
             prop_assert_eq!(Raw::new(&text).is_ok(), other, "{}", text);
         }
