@@ -7,9 +7,10 @@ use std::task::{Context, Poll};
 use super::outbox::{Due, Outbox};
 use super::{Adapter, Memory, Settings, SettingsError};
 use crate::bank::Overrun;
-use crate::session::{Client, ClientEvent, ClientSettings, Ending, Input, Output, Staged};
+use crate::session::{Client, ClientEvent, ClientSettings, Ending, Input, Output, Staged, close_code};
 use crate::signal_map::SignalMap;
 use crate::time::Instant;
+use crate::trace::Sender;
 use crate::wire::Fault;
 
 /// What a transport has for its connector.
@@ -106,13 +107,21 @@ pub struct Connector<T> {
 struct Session {
     client: Client,
     outbox: Outbox,
-    /// Read, and not yet in the memory.
-    staged: VecDeque<Staged>,
-    /// Texts of messages that could not be used, for the witness.
-    refused: VecDeque<String>,
+    /// What passed since the memory was last updated, in order.
+    passed: VecDeque<Passed>,
+    /// How much of it is to be moved into the memory.
+    arrived: usize,
     /// Whether `connect` was called.
     wanted: bool,
     ended: bool,
+}
+
+/// A message that passed.
+enum Passed {
+    /// The automation's values, for the memory.
+    Values(Staged),
+    /// Anything else that was received, or sent.
+    Other(Sender, String),
 }
 
 impl<T: Transport> Connector<T> {
@@ -131,7 +140,10 @@ impl<T: Transport> Connector<T> {
         let Some(session) = self.session.as_mut().filter(|session| session.wanted) else { return };
         while let Some(output) = session.client.poll() {
             match output {
-                Output::Transmit(text) => self.transport.send(now, text),
+                Output::Transmit(text) => {
+                    session.passed.push_back(Passed::Other(Sender::Plant, text.clone()));
+                    self.transport.send(now, text);
+                }
                 Output::Close { code, reason } => self.transport.close(now, code, &reason),
                 Output::Event(event) => session.take(event, &mut self.transport, &mut self.events, now),
             }
@@ -148,7 +160,7 @@ impl<T: Transport> Connector<T> {
     fn receive(&mut self, now: Instant, received: Received) {
         match received {
             Received::Opened => self.handle(now, Input::Opened),
-            Received::Text(text) => self.handle(now, Input::Text(&text)),
+            Received::Text(text) => self.receive_text(now, text),
             Received::Binary => self.handle(now, Input::Binary),
             Received::InvalidUtf8 => self.handle(now, Input::InvalidUtf8),
             Received::TooLong { limit } => self.handle(now, Input::TooLong { limit }),
@@ -159,31 +171,50 @@ impl<T: Transport> Connector<T> {
         }
     }
 
+    fn receive_text(&mut self, now: Instant, text: String) {
+        let Some(session) = &mut self.session else { return };
+        let before = session.arrived;
+        session.client.handle(now, Input::Text(&text));
+        // Before what it brought about: replies follow what they answer.
+        let place = session.passed.len();
+        self.drain(now);
+        let Some(session) = &mut self.session else { return };
+        if session.arrived == before {
+            let one_line = if text.contains(['\n', '\r']) { text.replace(['\n', '\r'], " ") } else { text };
+            session.passed.insert(place, Passed::Other(Sender::Automation, one_line));
+        }
+    }
+
     /// Whether something waits to be moved into the memory.
     fn has_arrivals(&self) -> bool {
-        self.session.as_ref().is_some_and(|session| !session.staged.is_empty())
+        self.session.as_ref().is_some_and(|session| session.arrived > 0)
     }
 
     /// Ends a connection that something was lost on; the session makes a new one, and starts from present values.
     fn drop_connection(&mut self, now: Instant, reason: &str) {
-        self.transport.close(now, crate::session::close_code::POLICY, reason);
+        self.transport.close(now, close_code::POLICY, reason);
         self.handle(now, Input::Closed);
     }
 
     fn stage(&mut self, now: Instant, memory: &mut Memory<'_>) {
         let mut lost = 0;
         let Some(session) = &mut self.session else { return };
-        for text in session.refused.drain(..) {
-            memory.witness.refused(&text);
-        }
-        for staged in session.staged.drain(..) {
+        session.arrived = 0;
+        for passed in session.passed.drain(..) {
+            let staged = match passed {
+                Passed::Other(from, text) => {
+                    memory.witness.exchanged(from, &text);
+                    continue;
+                }
+                Passed::Values(staged) => staged,
+            };
             // After a loss nothing more of this connection may act: order would be broken.
             let number = if lost == 0 { memory.bank.stage(&staged.values).ok() } else { None };
             match number {
                 Some(number) => {
                     self.traffic.messages_in += 1;
                     self.traffic.values_in += staged.values.len() as u64;
-                    memory.witness.command(number, &staged);
+                    memory.witness.staged(number, staged.text);
                 }
                 None => {
                     self.traffic.messages_lost += 1;
@@ -202,21 +233,40 @@ impl<T: Transport> Connector<T> {
         if self.transport.is_congested() {
             return;
         }
-        let Connector { session: Some(session), traffic, .. } = self else { return };
+        let Connector { session: Some(session), transport, traffic, .. } = self else { return };
         let Session { outbox, client, .. } = session;
+        let mut outputs = Vec::new();
         let collected = outbox.collect(memory.bank, due, |report| {
-            memory.witness.report(report.at, report.values);
-            if report.wanted && client.send(now, report.values) {
+            if client.send(now, report.values) {
                 traffic.messages_out += 1;
                 traffic.values_out += report.values.len() as u64;
             }
+            while let Some(output) = client.poll() {
+                match output {
+                    Output::Transmit(text) => {
+                        memory.witness.reported(report.at, &text);
+                        transport.send(now, text);
+                    }
+                    other => outputs.push(other),
+                }
+            }
         });
-        if let Err(Overrun { lost }) = collected {
-            self.traffic.messages_lost += lost;
-            self.events.push_back(Event::ReportsLost { changes: lost });
-            self.drop_connection(now, "reports are not read as fast as they come");
+        for output in outputs {
+            match output {
+                Output::Event(event) => session.take(event, transport, &mut self.events, now),
+                Output::Close { code, reason } => transport.close(now, code, &reason),
+                Output::Transmit(_) => {}
+            }
         }
-        self.drain(now);
+        match collected {
+            Ok(None) => {}
+            Ok(Some(at)) => memory.witness.reached(at),
+            Err(Overrun { lost }) => {
+                self.traffic.messages_lost += lost;
+                self.events.push_back(Event::ReportsLost { changes: lost });
+                self.drop_connection(now, "reports are not read as fast as they come");
+            }
+        }
     }
 }
 
@@ -234,11 +284,12 @@ impl Session {
                 if !staged.faults.is_empty() {
                     events.push_back(Event::ValuesRefused(std::mem::take(&mut staged.faults)));
                 }
-                return self.staged.push_back(staged);
+                self.passed.push_back(Passed::Values(staged));
+                self.arrived += 1;
+                return;
             }
             ClientEvent::Established { .. } => self.outbox.start(),
             ClientEvent::Lost { .. } => self.outbox.stop(),
-            ClientEvent::Rejected { ref text, .. } => self.refused.push_back(text.clone()),
             ClientEvent::Ended(_) => {
                 self.ended = true;
                 self.outbox.stop();
@@ -263,8 +314,8 @@ impl<T: Transport> Adapter for Connector<T> {
         self.session = Some(Session {
             client: Client::new(client, Arc::clone(map)),
             outbox: Outbox::default(),
-            staged: VecDeque::new(),
-            refused: VecDeque::new(),
+            passed: VecDeque::new(),
+            arrived: 0,
             wanted: false,
             ended: false,
         });

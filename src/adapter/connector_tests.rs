@@ -7,9 +7,10 @@ use std::time::Duration;
 use super::in_process::FromPeer;
 use super::{Adapter, Endpoint, Event, InProcess, Memory, Peer, Settings, Witness};
 use crate::bank::{self, IoSide, SimulationSide};
-use crate::session::{ClientEvent, Input, Output, Server, ServerEvent, ServerSettings, Staged};
+use crate::session::{ClientEvent, Input, Output, Server, ServerEvent, ServerSettings};
 use crate::signal_map::{Direction, Kind, RateClass, RegisterId, Signal, SignalMap};
 use crate::time::Instant;
+use crate::trace::Sender;
 use crate::value::{ElementaryType, SignalType, Unit, Value};
 use crate::wire::ResultCode;
 
@@ -96,15 +97,17 @@ impl Peer for TestServer {
 struct Record(Vec<String>);
 
 impl Witness for Record {
-    fn command(&mut self, number: u64, staged: &Staged) {
-        self.0.push(format!("{number} {}", staged.text));
+    fn staged(&mut self, number: u64, text: String) {
+        self.0.push(format!("staged {number} {text}"));
     }
-    fn refused(&mut self, text: &str) {
-        self.0.push(format!("refused {text}"));
+    fn reported(&mut self, at: Instant, text: &str) {
+        self.0.push(format!("reported {} {text}", at.nanos()));
     }
-    fn report(&mut self, at: Instant, values: &[(RegisterId, Value)]) {
-        self.0.push(format!("{} {}", at.nanos(), values.len()));
+    fn exchanged(&mut self, from: Sender, text: &str) {
+        let name = text.split('"').nth(1).unwrap_or(text);
+        self.0.push(format!("{} {name}", from.name()));
     }
+    fn reached(&mut self, _at: Instant) {}
 }
 
 struct Bench {
@@ -184,13 +187,13 @@ fn commands_are_staged_and_witnessed_in_order() {
     assert_eq!(inputs, [(COMMAND, Value::Dint(1))]);
     assert_eq!(bench.simulation.take(&mut inputs), Some(2));
     assert_eq!(inputs, [(COMMAND, Value::Dint(2))]);
-    let text = |n: i32| format!(r#"{n} {{"SendValue":[{{"name":"Belt.target","value":{n}}}]}}"#);
-    assert_eq!(bench.record.0, [text(1), text(2)]);
+    let text = |n: i32| format!(r#"staged {n} {{"SendValue":[{{"name":"Belt.target","value":{n}}}]}}"#);
+    assert_eq!(bench.record.0, ["plant Connect", "automation ConnectReply", &text(1), &text(2)]);
     assert_eq!(bench.connector.traffic().values_in, 2);
 }
 
 #[test]
-fn what_happens_without_a_session_is_recorded_and_a_new_session_hears_of_the_outcome() {
+fn a_lost_session_is_made_again_and_begins_with_all_reports() {
     let mut bench = Bench::new(accepting());
     bench.publish(false);
     bench.turn(0);
@@ -208,7 +211,13 @@ fn what_happens_without_a_session_is_recorded_and_a_new_session_hears_of_the_out
     assert!(bench.connector.is_connected());
     let all = r#"{"SendValue":[{"name":"Belt.barrier","value":true},{"name":"Belt.speed","value":0.0}]}"#;
     assert_eq!(bench.received(), [all]);
-    assert_eq!(bench.record.0, ["0 2", "1000000 1", "1000000 2"], "all, an edge that nobody heard, all again");
+    let session = ["plant Connect", "automation ConnectReply"];
+    let reported = |ns: i64, barrier: bool| {
+        let values = format!(r#"{{"name":"Belt.barrier","value":{barrier}}},{{"name":"Belt.speed","value":0.0}}"#);
+        format!(r#"reported {ns} {{"SendValue":[{values}]}}"#)
+    };
+    let expected = [session[0], session[1], &reported(0, false), session[0], session[1], &reported(1_000_000, true)];
+    assert_eq!(bench.record.0, expected, "the edge that nobody heard stands in no message");
 }
 
 #[test]

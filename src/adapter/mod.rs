@@ -38,10 +38,9 @@ pub use settings::{Settings, SettingsError};
 pub use websocket::{Socket, WebSocketConnector};
 
 use crate::bank::IoSide;
-use crate::session::Staged;
-use crate::signal_map::{RegisterId, SignalMap};
+use crate::signal_map::SignalMap;
 use crate::time::Instant;
-use crate::value::Value;
+use crate::trace::Sender;
 
 /// What connects a simulation's memory with an automation: the reference's Adapter Layer API (section 5.3.2.3).
 ///
@@ -104,23 +103,27 @@ pub struct Memory<'a> {
     pub witness: &'a mut dyn Witness,
 }
 
-/// Who sees what passes between memory and session: the recorder.
+/// Who sees what passes between memory and session, in the order in which it passes: the recorder.
 pub trait Witness {
-    /// A message was staged, under the number that the bank gave it.
-    fn command(&mut self, number: u64, staged: &Staged);
+    /// The automation's message `text` was staged, under the number that the bank gave it.
+    fn staged(&mut self, number: u64, text: String);
 
-    /// A message arrived of which nothing could be used; `text` is the message as it came.
-    fn refused(&mut self, text: &str);
+    /// The message `text` was sent; its values are those of the cycle at `at`.
+    fn reported(&mut self, at: Instant, text: &str);
 
-    /// The simulation reported `values` at the simulated time `at`, whether or not a session stood to send them in.
-    fn report(&mut self, at: Instant, values: &[(RegisterId, Value)]);
+    /// Any other message was received or sent, one that was refused included. `text` is on one line.
+    fn exchanged(&mut self, from: Sender, text: &str);
+
+    /// All reports before the cycle at `at` have been sent.
+    fn reached(&mut self, at: Instant);
 }
 
 /// A witness that looks away.
 pub struct NoWitness;
 
 impl Witness for NoWitness {
-    fn command(&mut self, _number: u64, _staged: &Staged) {}
-    fn refused(&mut self, _text: &str) {}
-    fn report(&mut self, _at: Instant, _values: &[(RegisterId, Value)]) {}
+    fn staged(&mut self, _number: u64, _text: String) {}
+    fn reported(&mut self, _at: Instant, _text: &str) {}
+    fn exchanged(&mut self, _from: Sender, _text: &str) {}
+    fn reached(&mut self, _at: Instant) {}
 }

@@ -11,8 +11,6 @@ pub struct Report<'a> {
     /// The simulated time of the step that produced them.
     pub at: Instant,
     pub values: &'a [(RegisterId, Value)],
-    /// Whether the session wants it; if not, it is for the record alone.
-    pub wanted: bool,
 }
 
 /// Which levels are due.
@@ -38,8 +36,6 @@ enum Told {
 #[derive(Debug, Default)]
 pub struct Outbox {
     told: Told,
-    /// Whether the record has its first line, which carries all signals.
-    begun: bool,
     groups: Vec<Changes>,
     values: Vec<(RegisterId, Value)>,
 }
@@ -56,43 +52,49 @@ impl Outbox {
     }
 
     /// Gives to `emit` all edges since the last call, one message for each step, and the levels that are `due`; in the
-    /// order of time. Levels of a step whose edges stand in the last message join it: they changed together.
+    /// order of time. Levels of a step whose edges stand in the last message join it: they changed together. Without a
+    /// session all of it is dropped: the first message of the next makes up for it.
+    ///
+    /// Gives the instant of the cycle that was reached, `None` while nothing was published.
     ///
     /// # Errors
     /// Edges were lost; those before the hole were given to `emit`. Go on with a new session.
-    pub fn collect(&mut self, bank: &mut IoSide, due: Due, mut emit: impl FnMut(Report<'_>)) -> Result<(), Overrun> {
+    pub fn collect(
+        &mut self,
+        bank: &mut IoSide,
+        due: Due,
+        mut emit: impl FnMut(Report<'_>),
+    ) -> Result<Option<Instant>, Overrun> {
         let cycle = bank.changed(&mut self.groups);
-        let all_due = self.told == Told::AllDue && matches!(cycle, Ok(Some(_)));
+        let all = self.told == Told::AllDue;
         self.values.clear();
-        if cycle.is_ok() && (due.high || all_due) {
+        if cycle.is_ok() && (due.high || all) {
             bank.levels(RateClass::HighFrequency, &mut self.values);
         }
-        if cycle.is_ok() && (due.low || all_due) {
+        if cycle.is_ok() && (due.low || all) {
             bank.levels(RateClass::LowFrequency, &mut self.values);
         }
-        let wanted = self.told == Told::Changes;
+        if self.told != Told::Changes {
+            self.groups.clear();
+            self.values.clear();
+        }
         let mut groups = self.groups.drain(..).peekable();
         while let Some(mut group) = groups.next() {
             if groups.peek().is_none() && cycle == Ok(Some(group.at)) {
                 group.values.append(&mut self.values);
             }
-            emit(Report { at: group.at, values: &group.values, wanted });
+            emit(Report { at: group.at, values: &group.values });
         }
         drop(groups);
-        let Some(at) = cycle? else { return Ok(()) };
-        if all_due || !self.begun {
-            // What changed up to this cycle has been recorded above; the session learns of it here.
-            self.values.clear();
+        let Some(at) = cycle? else { return Ok(None) };
+        if all {
             self.values.extend(bank.snapshot().iter().flat_map(|snapshot| snapshot.iter()));
-            self.begun = true;
-        }
-        if all_due {
             self.told = Told::Changes;
         }
         if !self.values.is_empty() {
-            emit(Report { at, values: &self.values, wanted: wanted || all_due });
+            emit(Report { at, values: &self.values });
         }
-        Ok(())
+        Ok(Some(at))
     }
 }
 
@@ -138,15 +140,14 @@ mod tests {
         simulation.publish(now, &[Value::Bool(barrier), Value::Real(speed), Value::Dint(count)]);
     }
 
-    /// What the outbox gives, as `ms: register=value …`, with a `-` in front of what no session wants.
+    /// What the outbox gives, as `ms: register=value …`.
     fn check(outbox: &mut Outbox, io: &mut IoSide, (high, low): (bool, bool), expect: &[&str]) {
         let mut given = Vec::new();
         let collected = outbox.collect(io, Due { high, low }, |report| {
             let values: Vec<String> = report.values.iter().map(|(id, value)| format!("{}={value}", id.0)).collect();
-            let sign = if report.wanted { "" } else { "-" };
-            given.push(format!("{sign}{}: {}", report.at.nanos() / 1_000_000, values.join(" ")));
+            given.push(format!("{}: {}", report.at.nanos() / 1_000_000, values.join(" ")));
         });
-        assert_eq!(collected, Ok(()));
+        assert!(collected.is_ok(), "{collected:?}");
         assert_eq!(given, expect);
     }
 
@@ -176,19 +177,19 @@ mod tests {
     }
 
     #[test]
-    fn without_a_session_all_is_for_the_record() {
+    fn what_changes_without_a_session_is_told_by_the_first_message_of_the_next() {
         let (mut simulation, mut io, mut outbox) = bench();
         publish(&mut simulation, 0, false, 0.0, 0);
-        check(&mut outbox, &mut io, (true, false), &["-0: 0=false 1=0 2=0"]);
+        check(&mut outbox, &mut io, (true, false), &[]);
         publish(&mut simulation, 1, true, 0.1, 0);
         publish(&mut simulation, 2, true, 0.2, 7);
-        check(&mut outbox, &mut io, (true, false), &["-1: 0=true", "-2: 1=0.2"]);
+        check(&mut outbox, &mut io, (true, false), &[]);
         outbox.start();
         check(&mut outbox, &mut io, (false, false), &["2: 0=true 1=0.2 2=7"]);
         // What the first message held is not said again.
         check(&mut outbox, &mut io, (true, true), &[]);
         outbox.stop();
         publish(&mut simulation, 3, false, 0.2, 7);
-        check(&mut outbox, &mut io, (true, true), &["-3: 0=false"]);
+        check(&mut outbox, &mut io, (true, true), &[]);
     }
 }

@@ -103,7 +103,8 @@ impl Stepper {
         self.exchange.adapter().disconnect(now);
         self.turn(now);
         let simulated = Simulated::of(&self.simulation, self.clock.now());
-        self.exchange.dispose().finish();
+        // The recorder ends when its tap is gone.
+        drop(self.exchange.dispose());
         let recorded = self.recording.finish()?;
         // In lock-step the way there and back takes no time: there is nothing to measure.
         Ok(Summary::new(&self.facts, &simulated, &self.spoken, Quantiles::default(), recorded))

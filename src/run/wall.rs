@@ -171,7 +171,8 @@ impl Io {
             io::Result::Ok(())
         })?;
         let Io { exchange, spoken, .. } = self;
-        exchange.dispose().finish();
+        // The recorder ends when its tap is gone.
+        drop(exchange.dispose());
         Ok(spoken)
     }
 }
