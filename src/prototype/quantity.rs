@@ -96,6 +96,9 @@ fn tokens(text: &str, quantities: &[Quantity]) -> Result<Vec<(f64, Option<Unit>)
         }
         match (numbers.last_mut(), Unit::named(token)) {
             (Some((_, unit @ None)), Some(named)) => *unit = Some(named),
+            (Some((_, None)), None) if token.starts_with(char::is_alphabetic) => {
+                return Err(no_unit(text, token, quantities));
+            }
             _ => numbers.push(glued(token).ok_or_else(|| no_number(text, token, quantities))?),
         }
     }
@@ -116,6 +119,14 @@ fn glued(token: &str) -> Option<(f64, Option<Unit>)> {
 /// Rust reads `inf` and `nan` as numbers; no model means them.
 fn finite(token: &str) -> Option<f64> {
     token.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+fn no_unit(text: &str, token: &str, quantities: &[Quantity]) -> NumberError {
+    let expected = match quantities {
+        [] | [Quantity::One] => "expected a number without a unit, or in %".to_owned(),
+        _ => format!("expected a number bare or in {}", one_of(symbols(quantities))),
+    };
+    NumberError { found: format!("{token:?} in {text:?} is no unit known here"), expected }
 }
 
 fn no_number(text: &str, token: &str, quantities: &[Quantity]) -> NumberError {
@@ -191,7 +202,13 @@ mod tests {
         );
         refused("inf", None, One, "no number");
         refused("NaN", None, One, "no number");
-        refused("5 furlong", None, Length, "\"furlong\" in \"5 furlong\"");
+        refused(
+            "5 furlong",
+            None,
+            Length,
+            "\"furlong\" in \"5 furlong\" is no unit known here: expected a number bare or in m or mm",
+        );
+        refused("5 parts", None, One, "is no unit known here: expected a number without a unit, or in %");
         refused("5 kg", None, Length, "is in kg: expected a number in m or mm");
         refused("mm", None, Length, "no number");
     }
