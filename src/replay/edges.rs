@@ -265,3 +265,106 @@ fn pair(recorded: &VecDeque<Edge>, model: &VecDeque<Edge>, window: Duration) -> 
     pairs.reverse();
     pairs
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::signal_map::{Direction, Kind, RateClass};
+    use crate::value::Unit;
+
+    fn signal() -> Signal {
+        Signal {
+            name: "x".to_owned(),
+            ty: "DINT".parse().expect("a type"),
+            direction: Direction::Report,
+            kind: Kind::Edge,
+            rate: RateClass::HighFrequency,
+            unit: Unit::ONE,
+            min: None,
+            max: None,
+            instance: String::new(),
+            task: String::new(),
+            property: String::new(),
+        }
+    }
+
+    /// Runs a model and a recording, each given by its changes (milliseconds, value) from 0, in steps of 1 ms.
+    fn compare(recorded: &[(i64, i32)], model: &[(i64, i32)], tolerance_ms: u64, ends_ms: i64) -> EdgeReport {
+        let at = |ms: i64| Instant::from_nanos(ms * 1_000_000);
+        let mut track = EdgeTrack::new(RegisterId(0), Duration::from_millis(tolerance_ms), at(ends_ms));
+        let mut registers = [Value::Dint(0)];
+        for ms in 0..=ends_ms {
+            if let Some((_, value)) = model.iter().find(|edge| edge.0 == ms) {
+                registers[0] = Value::Dint(*value);
+            }
+            track.model(at(ms), &registers);
+            if ms == 0 {
+                track.recorded(at(0), &Value::Dint(0), &registers);
+            }
+            if let Some((_, value)) = recorded.iter().find(|edge| edge.0 == ms) {
+                track.recorded(at(ms), &Value::Dint(*value), &registers);
+            }
+        }
+        track.finish(&signal()).expect("it was recorded")
+    }
+
+    /// Matched, early, late, missing, extra, brief.
+    fn check(recorded: &[(i64, i32)], model: &[(i64, i32)], tolerance_ms: u64, expect: [u64; 6]) {
+        let report = compare(recorded, model, tolerance_ms, 9_000);
+        let found = [report.matched, report.early, report.late, report.missing, report.extra, report.brief];
+        assert_eq!(found, expect, "{recorded:?} {model:?} {tolerance_ms}");
+    }
+
+    #[test]
+    fn edges_are_paired_by_value_and_time() {
+        let box_passes = [(1000, 1), (2000, 0)];
+        check(&box_passes, &box_passes, 0, [2, 0, 0, 0, 0, 0]);
+        check(&box_passes, &[(999, 1), (2003, 0)], 0, [0, 1, 1, 0, 0, 0]);
+        check(&box_passes, &[(999, 1), (2003, 0)], 3, [2, 0, 0, 0, 0, 0]);
+        check(&box_passes, &[], 0, [0, 0, 0, 2, 0, 0]);
+        check(&[], &box_passes, 0, [0, 0, 0, 0, 2, 0]);
+        // A box that only the model has, just before, does not make the others early.
+        check(&box_passes, &[(600, 1), (700, 0), (1000, 1), (2000, 0)], 0, [2, 0, 0, 0, 2, 0]);
+        // One that the model lacks does not make the others late.
+        check(&[(600, 1), (700, 0), (1000, 1), (2000, 0)], &box_passes, 0, [2, 0, 0, 2, 0, 0]);
+        // Two seconds apart they are two edges.
+        check(&[(1000, 1)], &[(3500, 1)], 0, [0, 0, 0, 1, 1, 0]);
+        check(&[(1000, 1)], &[(3500, 1)], 3000, [1, 0, 0, 0, 0, 0]);
+        // Codes: the value counts, not only the time.
+        check(&[(1000, 2), (1500, 1)], &[(1000, 3), (1500, 1)], 0, [1, 0, 0, 1, 1, 0]);
+    }
+
+    #[test]
+    fn a_state_that_ends_within_the_tolerance_may_go_unrecorded() {
+        // A drive that reverses stands still for 2 ms; a PLC that looks every 20 ms does not see it.
+        check(&[(1000, 1), (2010, -1)], &[(990, 1), (1995, 0), (1997, -1)], 20, [2, 0, 0, 0, 0, 1]);
+        check(&[(1000, 1)], &[(990, 1), (2000, 0), (2002, 1)], 20, [1, 0, 0, 0, 0, 1]);
+        check(&[(1000, 1)], &[(990, 1), (2000, 0), (2030, 1)], 20, [1, 0, 0, 0, 2, 0]);
+        check(&[(1000, 1)], &[(1000, 1), (2000, 0), (2001, 1)], 0, [1, 0, 0, 0, 2, 0]);
+        // What was recorded happened, however brief it was.
+        check(&[(1000, 1), (1001, 0)], &[], 20, [0, 0, 0, 2, 0, 0]);
+    }
+
+    #[test]
+    fn what_could_have_its_counterpart_outside_the_trace_is_no_difference() {
+        let at_the_end = |tolerance_ms| {
+            let late = compare(&[], &[(8_990, 1)], tolerance_ms, 9_000);
+            let early = compare(&[(8_990, 1)], &[], tolerance_ms, 9_000);
+            (late.extra, early.missing)
+        };
+        assert_eq!(at_the_end(0), (1, 1));
+        assert_eq!(at_the_end(20), (0, 0));
+        // A state that the model never had, from the first report on.
+        check(&[(0, 1)], &[], 0, [0, 0, 0, 1, 0, 0]);
+        check(&[(0, 1)], &[(3, 1)], 0, [0, 0, 1, 0, 0, 0]);
+    }
+
+    #[test]
+    fn a_signal_that_never_rests_is_paired_as_it_goes() {
+        let flicker: Vec<_> = (1..900).map(|i| (i * 10, (i % 2) as i32)).collect();
+        let late: Vec<_> = flicker.iter().map(|(at, value)| (at + 2, *value)).collect();
+        check(&flicker, &flicker, 0, [899, 0, 0, 0, 0, 0]);
+        check(&flicker, &late, 0, [0, 0, 899, 0, 0, 0]);
+        check(&flicker, &late, 2, [899, 0, 0, 0, 0, 0]);
+    }
+}

@@ -234,7 +234,20 @@ fn info_counts_what_stands_in_a_trace() {
     assert_eq!(info.signals["go"], SignalInfo { commands: 1, reports: 1 });
     assert_eq!(info.senders["plant"], 2);
     assert_eq!(info.messages["Refused"], 1);
-    assert!(info.torn.is_some_and(|torn| torn.contains("line 5")));
+    let expect = "\
+source     a real machine
+model      models/rig
+time       0.5 s to 2.25 s
+lines      3: 1 automation, 2 plant
+messages   1 Refused, 2 SendValue
+torn       line 5, the last, is torn and was left out: malformed JSON: expected a comma or the object's closing brace, \
+               found the end of the text
+
+signal       commands    reports
+go                  1          1
+p                   0          1
+";
+    assert_eq!(info.to_string(), expect.replace("               found", "found"));
 }
 
 #[test]
@@ -266,6 +279,26 @@ fn map() -> SignalMap {
         property: String::new(),
     };
     SignalMap::new("two", vec![signal("c", Direction::Command), signal("r", Direction::Report)]).expect("two names")
+}
+
+proptest! {
+    /// Whatever stands in a file, reading it ends, in lines or in an error.
+    #[test]
+    fn a_damaged_trace_is_read_or_refused(
+        compression in prop::sample::select(vec![Compression::None, Compression::Zstd]),
+        damages in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let mut bytes = forty_lines(compression);
+        for (place, byte) in damages {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        bytes.truncate(cut.index(bytes.len()) + 1);
+        if let Ok((lines, _)) = read_all(&bytes) {
+            prop_assert!(lines.len() <= 40);
+        }
+    }
 }
 
 /// What happens next in a run of two threads.
