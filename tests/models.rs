@@ -16,6 +16,7 @@ use kinetwin::signal_map::xml::{differences, read, write};
 /// Every plant below `models/`, as `kinetwin` takes it.
 const MODELS: &[&str] = &[
     "models/curve",
+    "models/depalletizer",
     "models/rig",
     "models/rig-toleranced",
     "models/servo-arm",

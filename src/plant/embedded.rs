@@ -33,6 +33,7 @@ static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/UnloadingBay/avatar.xml",
     "models/catalogue/UnloadingBay/prototype.xml",
     "models/curve/plant.xml",
+    "models/depalletizer/plant.xml",
     "models/rig-toleranced/plant.xml",
     "models/rig/plant.xml",
     "models/servo-arm/plant.xml",

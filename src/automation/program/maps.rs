@@ -13,6 +13,7 @@ macro_rules! maps {
 /// Every map under `signals-maps/`, by the name of its file; a test sees to it that none is forgotten.
 static MAPS: &[(&str, &str)] = maps![
     "curve",
+    "depalletizer",
     "rig",
     "rig-toleranced",
     "servo-arm",
