@@ -197,6 +197,29 @@ fn the_rigs_parameters_are_those_of_its_table() {
 }
 
 #[test]
+fn the_line_has_the_instances_and_signals_of_the_reference() {
+    let plant = plant("models/depalletizer");
+    let count = |prototype: &str| plant.instances.iter().filter(|instance| instance.prototype == prototype).count();
+    let check = |prototype: &str, expect: usize| assert_eq!(count(prototype), expect, "{prototype}");
+    check("StraightConveyor", 10);
+    check("ConveyorCurve", 2);
+    check("Pusher", 3);
+    check("CartesianRobot", 1);
+    check("SuctionCapGripper", 2);
+    check("LoadingBay", 12);
+    check("UnloadingBay", 8);
+    assert_eq!((plant.instances.len(), plant.signal_map.signals().len()), (38, 130));
+    let names: BTreeSet<&str> = plant.instances.iter().map(|instance| instance.name.as_str()).collect();
+    for (name, last) in
+        [("Conveyor", 10), ("Curve", 2), ("Pusher", 3), ("Gripper", 2), ("LoadingBay", 12), ("UnloadingBay", 8)]
+    {
+        for number in 1..=last {
+            assert!(names.contains(format!("{name}{number}").as_str()), "{name}{number}");
+        }
+    }
+}
+
+#[test]
 fn an_axis_has_the_signals_of_its_mode_in_the_units_of_its_motion() {
     let check = |model: &str, instance: &str, expect: &[(&str, &str)]| {
         let plant = plant(model);

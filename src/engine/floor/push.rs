@@ -46,6 +46,10 @@ impl Floor {
             let share = if apart(1.0) < 0.0 { 1.0 } else { nearest_contact(1.0, 0.0, apart) };
             self.parts.move_by(slot, Motion { shift: way * share, turn: 0.0 });
             self.handled.push(slot);
+            let root = self.parts.root_of(slot);
+            if root != slot {
+                self.handled.push(root);
+            }
             let mut blocks = Vec::new();
             self.parts.visit_group(slot, &mut |_, part| blocks.push(part.block));
             for block in blocks {
