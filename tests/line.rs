@@ -48,7 +48,7 @@ impl Line {
             inputs.extend(self.staged.pop_front().into_iter().flatten());
         }
         let now = self.engine.now();
-        let refresh = self.engine.steps() % REFRESH == 0;
+        let refresh = self.engine.steps().is_multiple_of(REFRESH);
         let registers = self.engine.tick(&inputs);
         let mut changed = Vec::new();
         for (register, signal) in self.plant.signal_map.directed(Direction::Report) {
