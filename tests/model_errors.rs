@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Duration;
 
 use kinetwin::device::KINDS;
@@ -74,6 +75,22 @@ fn every_fault_says_file_line_column_what_was_found_and_what_was_expected() {
             assert!(position.iter().all(|part| part.is_some_and(|part| part > 0)), "{case}: {line}");
             assert!(parts.next().is_some_and(|file| file.ends_with(".xml")), "{case}: {line}");
             assert!(text.contains(": expected "), "{case}: {line}");
+        }
+    }
+}
+
+#[test]
+fn the_program_refuses_every_faulty_model_with_2_and_starts_nothing() {
+    for case in cases() {
+        let model = format!("tests/faulty-models/{case}");
+        for command in ["check", "run"] {
+            let mut program = Command::new(env!("CARGO_BIN_EXE_kinetwin"));
+            let output = program.args([command, &model]).current_dir(root()).output().expect("the program");
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{command} {case}: {told}");
+            assert!(output.stdout.is_empty(), "{command} {case} says something on standard output");
+            assert!(told.contains("plant.xml:") || told.contains("prototypes/"), "{command} {case}: {told}");
+            assert!(!told.contains("session"), "{command} {case} started: {told}");
         }
     }
 }
