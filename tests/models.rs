@@ -12,6 +12,7 @@ use kinetwin::plant::{Parameter, ParameterValue, Plant, load};
 use kinetwin::prototype::source::{Layered, Memory};
 use kinetwin::signal_map::Direction;
 use kinetwin::signal_map::xml::{differences, read, write};
+use kinetwin::value::Value;
 
 /// Every plant below `models/`, as `kinetwin` takes it.
 const MODELS: &[&str] = &[
@@ -78,6 +79,24 @@ fn every_model_runs() {
             Engine::new(&plant, Duration::from_millis(1), 0).unwrap_or_else(|error| panic!("{model}: {error}"));
         assert_eq!(engine.tick(&[]).len(), plant.signal_map.signals().len(), "{model}");
     }
+}
+
+#[test]
+fn the_boxes_of_the_curve_come_round_it() {
+    let plant = plant("models/curve");
+    let mut engine = Engine::new(&plant, Duration::from_millis(1), 0).expect("an engine");
+    let register = |name: &str| plant.signal_map.register(name).expect(name);
+    let mut commands = Vec::new();
+    for belt in ["Entry", "Curve", "Exit"] {
+        commands.push((register(&format!("{belt}.velocityTarget")), Value::Real(0.5)));
+        commands.push((register(&format!("{belt}.motorDirection")), Value::Dint(1)));
+    }
+    engine.tick(&commands);
+    for _ in 0..20_000 {
+        engine.tick(&[]);
+    }
+    let counts = engine.counts();
+    assert_eq!((counts.boxes_in, counts.boxes_out, counts.boxes_lost, counts.collisions), (2, 2, 0, 0));
 }
 
 /// The rig's signals as its recordings have them: what the automation sets, then what the plant reports.
