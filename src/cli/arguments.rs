@@ -38,6 +38,18 @@ pub enum Command {
     Run(RunArguments),
     Check(CheckArguments),
     SignalsMap(SignalsMapArguments),
+    Replay(ReplayArguments),
+    /// Looks into recorded traces, and cuts them
+    Trace {
+        #[command(subcommand)]
+        command: TraceCommand,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum TraceCommand {
+    Info(InfoArguments),
+    Cut(CutArguments),
 }
 
 /// Runs a model against its automation.
@@ -159,6 +171,82 @@ Exit codes:
   1  the file differs from the map; each difference is named
   2  the model or the file cannot be read";
 
+/// Replays a recorded trace through a model and compares what the model reports with what was recorded.
+///
+/// The automation's side of the trace acts on the model at its recorded times. Levels are compared by their largest and
+/// RMS difference, edges by time. A trace that kinetwin recorded replays with no difference.
+#[derive(Debug, Args)]
+#[command(after_long_help = REPLAY_HELP)]
+pub struct ReplayArguments {
+    /// The trace: *.cps.jsonl, or compressed *.cps.jsonl.zst
+    pub trace: PathBuf,
+    /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue (models/rig)
+    #[arg(long, value_name = "MODEL")]
+    pub model: String,
+    /// The most between a recorded edge and the model's
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "0s")]
+    pub edge_tolerance: Duration,
+    /// The most between a recorded level and the model's, in the signal's unit
+    #[arg(long, value_name = "NUMBER", value_parser = parse_tolerance, default_value = "0")]
+    pub level_tolerance: f64,
+    /// Prints the result as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const REPLAY_HELP: &str = "\
+Examples:
+  kinetwin replay session.cps.jsonl.zst --model models/rig
+  kinetwin replay machine.cps.jsonl --model ./my-plant --edge-tolerance 20ms --level-tolerance 0.001
+
+The engine's step and seed are those of the recording, where it says them; else 1ms and 0.
+
+Exit codes:
+  0  the model reports what was recorded, within the tolerances
+  1  some signals differ; each is named
+  2  the trace or the model cannot be read";
+
+/// Says what stands in a trace: its header, its times, and how often each signal stands in it.
+#[derive(Debug, Args)]
+pub struct InfoArguments {
+    /// The trace: *.cps.jsonl, or compressed *.cps.jsonl.zst
+    pub trace: PathBuf,
+    /// Prints the result as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Copies a span of a trace to a trace of its own.
+///
+/// Lines keep their times. The last value that each signal had before the span stands at its start, so that the cut knows
+/// of every signal what the whole knew.
+#[derive(Debug, Args)]
+#[command(after_long_help = CUT_HELP)]
+pub struct CutArguments {
+    /// The trace: *.cps.jsonl, or compressed *.cps.jsonl.zst
+    pub trace: PathBuf,
+    /// The first instant to keep
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub from: Duration,
+    /// The last instant to keep
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub to: Duration,
+    /// How much before the span is kept too, so that a model can settle
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "0s")]
+    pub warm_up: Duration,
+    /// The trace to write, compressed where its name ends with .zst
+    #[arg(short, long, value_name = "TRACE")]
+    pub output: PathBuf,
+    /// Replaces the trace to write if there is one; without it, that is refused
+    #[arg(long)]
+    pub force: bool,
+}
+
+const CUT_HELP: &str = "\
+Examples:
+  kinetwin trace cut session.cps.jsonl --from 10s --to 30s -o middle.cps.jsonl
+  kinetwin trace cut session.cps.jsonl.zst --from 1m --to 2m --warm-up 10s -o minute.cps.jsonl.zst";
+
 /// How the automation is reached.
 #[derive(Debug, Args)]
 pub struct ConnectionArguments {
@@ -191,6 +279,11 @@ fn parse_speed(text: &str) -> Result<Speed, String> {
             _ => Err("expected a number from 0.01 to 1000, or max".to_owned()),
         },
     }
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number >= 0.0);
+    number.ok_or_else(|| "expected a number, 0 or more".to_owned())
 }
 
 /// Reads a number of bytes: `1MiB`, `64KiB`, `2MB`, `4096`.

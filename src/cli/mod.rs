@@ -8,6 +8,7 @@ mod check;
 mod log;
 mod picture;
 mod plan;
+mod replay;
 mod report;
 mod run;
 mod signals;
@@ -22,7 +23,7 @@ use miette::GraphicalTheme;
 
 use crate::plant::ModelError;
 use crate::run::RunError;
-use arguments::{Arguments, Command, RunArguments};
+use arguments::{Arguments, Command, RunArguments, TraceCommand};
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +47,9 @@ pub fn main() -> ExitCode {
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::SignalsMap(arguments)) => check::signals_map(&arguments),
+        Some(Command::Replay(arguments)) => replay::replay(&arguments),
+        Some(Command::Trace { command: TraceCommand::Info(arguments) }) => replay::info(&arguments),
+        Some(Command::Trace { command: TraceCommand::Cut(arguments) }) => replay::cut(&arguments),
     };
     match answer {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
@@ -54,6 +58,19 @@ pub fn main() -> ExitCode {
             eprintln!("{}", text.trim_end());
             ExitCode::from(2)
         }
+    }
+}
+
+impl Failure {
+    /// An error with what brought it about.
+    fn of(error: &dyn std::error::Error) -> Failure {
+        let mut text = format!("error: {error}");
+        let mut cause = error.source();
+        while let Some(error) = cause {
+            text.push_str(&format!(": {error}"));
+            cause = error.source();
+        }
+        Failure(text)
     }
 }
 
@@ -73,7 +90,7 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Failure {
         match error {
             RunError::Model(error) => error.into(),
-            error => Failure(format!("error: {error}")),
+            error => Failure::of(&error),
         }
     }
 }

@@ -1,9 +1,8 @@
 //! Recording a run: a thread of its own joins what the simulation and the IO thread know, and writes.
 //!
-//! Both tell it without ever waiting: the simulation puts what it took into a lock-free queue, the IO thread sends what
-//! passed into a channel, and the recorder empties the queue before it takes the next from the channel. That keeps the
-//! [`Recorder`]'s rule: what a step took stands in the queue before its cycle is published, and the IO thread sends a
-//! report only after it saw the cycle.
+//! Both put what they know into one lock-free queue, and never wait: what a step took stands there before the step's cycle
+//! is published, a report after its cycle was seen. That is the order that a [`Recorder`] relies on. Only the IO thread
+//! wakes the recorder.
 //!
 //! The trace is written under a name that ends with `.partial` and takes its own when it is whole: a recording that broke
 //! off never stands in the place of a good one, and can still be read.
@@ -12,7 +11,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver};
+use std::sync::mpsc::{self, Receiver, SyncSender};
 use std::thread::{self, JoinHandle};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -34,7 +33,12 @@ struct Writing {
 }
 
 /// The IO thread's end.
-pub(super) struct Tap(Option<mpsc::Sender<Record>>);
+pub(super) struct Tap(Option<Telling>);
+
+struct Telling {
+    queue: Arc<SegQueue<Record>>,
+    wake: SyncSender<()>,
+}
 
 /// The simulation thread's end.
 struct Chronicle(Arc<SegQueue<Record>>);
@@ -54,11 +58,12 @@ pub(super) fn start(options: &Options, facts: &Facts) -> Result<(Recording, Tap,
     let file = BufWriter::with_capacity(1 << 16, File::create(&partial).map_err(fail)?);
     let writer = Writer::new(file, Compression::of(&path.to_string_lossy()), &header(facts)).map_err(fail)?;
     let queue = Arc::new(SegQueue::new());
-    let (tap, records) = mpsc::channel();
-    let taken = Arc::clone(&queue);
-    let write = move || write(Recorder::new(writer), &records, &taken);
+    let (wake, woken) = mpsc::sync_channel(1);
+    let records = Arc::clone(&queue);
+    let write = move || write(Recorder::new(writer), &records, &woken);
     let thread = thread::Builder::new().name("recorder".to_owned()).spawn(write).map_err(RunError::Thread)?;
-    Ok((Recording(Some(Writing { path, partial, thread })), Tap(Some(tap)), Box::new(Chronicle(queue))))
+    let tap = Tap(Some(Telling { queue: Arc::clone(&queue), wake }));
+    Ok((Recording(Some(Writing { path, partial, thread })), tap, Box::new(Chronicle(queue))))
 }
 
 fn header(facts: &Facts) -> Header {
@@ -74,24 +79,23 @@ fn header(facts: &Facts) -> Header {
 }
 
 /// Writes what comes until nothing more will.
-fn write(
-    mut recorder: Recorder<BufWriter<File>>,
-    records: &Receiver<Record>,
-    taken: &SegQueue<Record>,
-) -> io::Result<()> {
-    for record in records {
-        take(&mut recorder, taken)?;
-        recorder.record(record)?;
+fn write(mut recorder: Recorder<BufWriter<File>>, records: &SegQueue<Record>, woken: &Receiver<()>) -> io::Result<()> {
+    let mut written = Ok(());
+    loop {
+        // Looked at before the queue is emptied: what the tap put there before it went is taken below.
+        let is_over = woken.recv().is_err();
+        while let Some(record) = records.pop() {
+            // After a failure the queue must not grow: it is emptied all the same.
+            if written.is_ok() {
+                written = recorder.record(record);
+            }
+        }
+        if is_over {
+            break;
+        }
     }
-    take(&mut recorder, taken)?;
+    written?;
     recorder.finish()?.flush()
-}
-
-fn take(recorder: &mut Recorder<BufWriter<File>>, taken: &SegQueue<Record>) -> io::Result<()> {
-    while let Some(record) = taken.pop() {
-        recorder.record(record)?;
-    }
-    Ok(())
 }
 
 impl Recording {
@@ -111,12 +115,9 @@ fn rename(partial: &Path, path: &Path) -> io::Result<()> {
 }
 
 impl Tap {
-    fn tell(&mut self, record: impl FnOnce() -> Record) {
-        if let Some(records) = &self.0
-            && records.send(record()).is_err()
-        {
-            // The recorder failed; the run goes on, and its end will say so.
-            self.0 = None;
+    fn tell(&self, record: impl FnOnce() -> Record) {
+        if let Some(telling) = &self.0 {
+            telling.queue.push(record());
         }
     }
 }
@@ -136,6 +137,10 @@ impl Witness for Tap {
 
     fn reached(&mut self, at: Instant) {
         self.tell(|| Record::Reached { at });
+        if let Some(telling) = &self.0 {
+            // Full: it has been woken and has not looked yet. Gone: its end will be told when the run ends.
+            let _ = telling.wake.try_send(());
+        }
     }
 }
 
