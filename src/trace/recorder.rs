@@ -1,8 +1,9 @@
 //! Two threads' knowledge → one trace.
 //!
 //! The IO thread knows what was said, the simulation thread knows when it counted: a command's time is that of the step
-//! that took it, a report's that of the step that produced it. Both send [`Record`]s into one channel, and whoever holds
-//! its other end feeds them to a [`Recorder`]; nobody waits for it.
+//! that took it, a report's that of the step that produced it. Both send [`Record`]s into a channel, and whoever holds
+//! its other end feeds them to a [`Recorder`]; nobody waits for it. (The simulation's may come through a channel of their
+//! own, if that is emptied before each record of the IO thread's.)
 //!
 //! # Order
 //!
@@ -14,8 +15,9 @@
 //!   report's cycle; its reports are in the order of time too.
 //!
 //! So when a report of step `t` comes out of the channel, all commands taken up to `t` have come out before it: they are
-//! written, then the report. Commands taken later wait, because reports of earlier steps may follow. Nothing else is
-//! ever reordered, and what waits is at most what the simulation took while the IO thread slept.
+//! written, then the report. Commands taken later wait, because reports of earlier steps may follow, and so do commands
+//! whose message has not come out yet: nothing that the IO thread sent before it belongs behind it. Nothing else is ever
+//! reordered, and what waits is at most what the simulation took while the IO thread slept.
 
 use std::collections::VecDeque;
 use std::io::{self, Write};
@@ -47,6 +49,8 @@ pub struct Recorder<W: Write> {
     writer: Writer<W>,
     /// Messages that were staged and not yet taken, or taken and not yet written.
     staged: VecDeque<(u64, String)>,
+    /// The number of the last message that was staged.
+    last_staged: u64,
     taken: VecDeque<(Instant, u64)>,
     events: VecDeque<(Instant, Sender, String)>,
     /// The time of the last line, or of the cycle last heard of from the IO thread.
@@ -59,6 +63,7 @@ impl<W: Write> Recorder<W> {
         Recorder {
             writer,
             staged: VecDeque::new(),
+            last_staged: 0,
             taken: VecDeque::new(),
             events: VecDeque::new(),
             reached: Instant::ZERO,
@@ -68,7 +73,10 @@ impl<W: Write> Recorder<W> {
     /// Takes the next record out of the channel.
     pub fn record(&mut self, record: Record) -> io::Result<()> {
         match record {
-            Record::Staged { number, text } => self.staged.push_back((number, text)),
+            Record::Staged { number, text } => {
+                self.staged.push_back((number, text));
+                self.last_staged = number;
+            }
             Record::Taken { at, number } => self.taken.push_back((at, number)),
             Record::Event { at, from, event } => self.events.push_back((at, from, event)),
             Record::Reached { at } => self.write_until(at)?,
@@ -88,7 +96,11 @@ impl<W: Write> Recorder<W> {
     fn write_until(&mut self, until: Instant) -> io::Result<()> {
         self.reached = self.reached.max(until);
         loop {
-            let taken = self.taken.front().map(|(at, _)| *at).filter(|at| *at <= until);
+            let taken = self.taken.front().filter(|(at, _)| *at <= until);
+            if taken.is_some_and(|(_, number)| *number > self.last_staged) {
+                return Ok(());
+            }
+            let taken = taken.map(|(at, _)| *at);
             let event = self.events.front().map(|(at, ..)| *at).filter(|at| *at <= until);
             match (taken, event) {
                 (None, None) => return Ok(()),
@@ -122,6 +134,7 @@ impl<W: Write> Recorder<W> {
 
     /// Writes what still waits and ends the trace. Messages that no step took are left out: they never acted.
     pub fn finish(mut self) -> io::Result<W> {
+        self.last_staged = u64::MAX;
         self.write_until(Instant::FAR)?;
         self.writer.finish()
     }
