@@ -171,7 +171,8 @@ impl Connection {
 
     /// Answers `connect`.
     pub fn reply(&mut self, connect: &Value, result: u16) {
-        let reply = json!({ "Id": connect["Id"], "enable": connect["enable"], "ServerName": "dGVzdA==", "result": result });
+        let reply =
+            json!({ "Id": connect["Id"], "enable": connect["enable"], "ServerName": "dGVzdA==", "result": result });
         self.send(&json!({ "ConnectReply": reply }).to_string());
     }
 

@@ -1,12 +1,10 @@
 //! `kinetwin run` as a process against servers that do what a test says: servers that are absent, refuse, talk nonsense,
 //! die and return; and how a run ends.
 
-mod support;
-
 use std::io::Write as _;
 
+use crate::support::{Connection, Host, Running, kinetwin};
 use serde_json::{Value, json};
-use support::{Connection, Host, Running, kinetwin};
 
 /// A run against `host` that goes on until it is interrupted.
 fn run_against(host: &Host) -> Running {

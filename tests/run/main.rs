@@ -1,0 +1,5 @@
+//! The program as its users have it: as a process, over real sockets.
+
+mod exchange;
+mod servers;
+mod support;
