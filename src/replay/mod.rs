@@ -55,8 +55,8 @@ pub struct Tolerances {
     pub edge: Duration,
     /// The most between a recorded level and the model's, in the signal's unit.
     pub level: f64,
-    /// How long a level's class may be silent until a model that has moved away differs: longer than the longest refresh
-    /// interval it was recorded at.
+    /// How long a level may be silent until a model that has moved away differs: longer than a refresh interval. Four times
+    /// the mean time between two reports of its rate class, where that is more.
     pub silence: Duration,
 }
 
@@ -182,7 +182,10 @@ impl<'a> Replay<'a> {
                 Kind::Edge => edges.len(),
             };
             match signal.kind {
-                Kind::Level => levels.push(LevelTrack::new(id, signal.rate, tolerances)),
+                Kind::Level => {
+                    let silence = tolerances.silence.max(4 * survey.interval(signal.rate));
+                    levels.push(LevelTrack::new(id, signal.rate, Tolerances { silence, ..tolerances }));
+                }
                 Kind::Edge => edges.push(EdgeTrack::new(id, tolerances.edge, survey.ends())),
             }
         }

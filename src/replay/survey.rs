@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::io::BufRead;
+use std::time::Duration;
 
-use crate::signal_map::{Direction, SignalMap};
+use crate::signal_map::{Direction, Kind, RateClass, SignalMap};
 use crate::time::Instant;
 use crate::trace::{Body, Header, Line, Reader, Sender, TraceError};
 use crate::wire::Message;
@@ -20,6 +21,33 @@ pub struct Survey {
     /// Last reports before a new connection: nobody recorded from there to the next report.
     blind: Vec<Instant>,
     last_report: Option<Instant>,
+    /// How often levels were reported, by rate class.
+    rhythms: [Rhythm; 2],
+}
+
+/// How often something was reported.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Rhythm {
+    reports: u32,
+    first: Instant,
+    last: Instant,
+}
+
+impl Rhythm {
+    fn beat(&mut self, at: Instant) {
+        if self.reports == 0 {
+            self.first = at;
+        }
+        if self.reports == 0 || self.last != at {
+            self.reports = self.reports.saturating_add(1);
+        }
+        self.last = at;
+    }
+
+    /// The mean time between two reports; nothing of fewer than two.
+    fn interval(&self) -> Duration {
+        self.last.since(self.first) / self.reports.saturating_sub(1).max(1)
+    }
 }
 
 impl Survey {
@@ -36,6 +64,7 @@ impl Survey {
             ignored: BTreeMap::new(),
             blind: Vec::new(),
             last_report: None,
+            rhythms: [Rhythm::default(); 2],
         };
         while let Some(line) = reader.next_line()? {
             survey.line(map, &line);
@@ -69,6 +98,11 @@ impl Survey {
         &self.ignored
     }
 
+    /// The mean time between two reports of levels of this rate class; nothing if there are not two.
+    pub(super) fn interval(&self, rate: RateClass) -> Duration {
+        self.rhythms[rate as usize].interval()
+    }
+
     pub(super) fn blind(&self) -> &[Instant] {
         &self.blind
     }
@@ -80,6 +114,7 @@ impl Survey {
             (Body::Message(Message::SendValue(entries)), from) => {
                 for name in entries.iter().filter_map(|entry| entry.name.as_deref()) {
                     self.check(map, name, from);
+                    self.listen(map, name, line.at);
                 }
                 if from == Sender::Plant {
                     self.last_report = Some(line.at);
@@ -90,6 +125,13 @@ impl Survey {
                 self.blind.extend(self.last_report.take());
             }
             _ => {}
+        }
+    }
+
+    fn listen(&mut self, map: &SignalMap, name: &str, at: Instant) {
+        let signal = map.register(name).map(|id| map.signal(id));
+        if let Some(signal) = signal.filter(|s| s.direction == Direction::Report && s.kind == Kind::Level) {
+            self.rhythms[signal.rate as usize].beat(at);
         }
     }
 

@@ -265,6 +265,16 @@ fn a_level_that_the_recording_never_mentions_again_is_compared_all_the_same() {
     let report = replay(&rig(), &silent);
     let level = &report.levels[0];
     assert!(level.differs && level.silent == 1 && (level.largest - 0.1).abs() < 1e-6, "{report}");
+    // A recording that reports every 3 s is not silent for 3 s.
+    let slow = start_of_belt(
+        r#"
+{"t":3,"from":"plant","SendValue":[{"name":"Belt.velocityActual","value":0.1}]}
+{"t":3,"from":"automation","SendValue":[{"name":"Belt.velocityTarget","value":0}]}
+{"t":6,"from":"plant","SendValue":[{"name":"Belt.velocityActual","value":0}]}
+"#,
+    );
+    let report = replay(&rig(), &slow);
+    assert!(!report.levels[0].differs && report.levels[0].compared == 3, "{report}");
     // Until the silence is long, it is no evidence: it may be the time between two reports.
     let silent = start_of_belt("\n{\"t\":1.9,\"from\":\"operator\",\"Event\":{}}\n");
     assert!(!replay(&rig(), &silent).levels[0].differs);

@@ -1,7 +1,6 @@
 //! What stands in a trace, counted.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::io::BufRead;
 
 use serde::Serialize;
@@ -9,7 +8,7 @@ use serde::Serialize;
 use crate::time::Instant;
 use crate::wire::Message;
 
-use super::header::{Header, Source};
+use super::header::Header;
 use super::reader::{Body, Reader, Sender, TraceError};
 
 /// What stands in a trace.
@@ -90,46 +89,5 @@ fn count(signals: &mut BTreeMap<String, SignalInfo>, name: &str, from: Sender) {
             Sender::Automation => signal.commands += 1,
             _ => signal.reports += 1,
         }
-    }
-}
-
-impl fmt::Display for Info {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let header = &self.header;
-        let source = match header.source {
-            Source::Plant => "a real machine",
-            Source::Simulation => "a simulation",
-            Source::Unknown => "not said",
-        };
-        let field = |f: &mut fmt::Formatter<'_>, name: &str, value: &str| writeln!(f, "{name:<11}{value}");
-        field(f, "source", source)?;
-        for (name, value) in [("model", &header.model), ("start", &header.start), ("note", &header.note)] {
-            if let Some(value) = value {
-                field(f, name, value)?;
-            }
-        }
-        if let Some(step) = header.step_ns {
-            field(f, "step", &format!("{} ms", step as f64 / 1e6))?;
-        }
-        if let Some(seed) = header.seed {
-            field(f, "seed", &seed.to_string())?;
-        }
-        field(f, "time", &format!("{} s to {} s", self.begins_s, self.ends_s))?;
-        let counts = |counts: &BTreeMap<&str, u64>| {
-            counts.iter().map(|(name, count)| format!("{count} {name}")).collect::<Vec<_>>().join(", ")
-        };
-        field(f, "lines", &format!("{}: {}", self.lines, counts(&self.senders)))?;
-        field(f, "messages", &counts(&self.messages))?;
-        if let Some(torn) = &self.torn {
-            field(f, "torn", torn)?;
-        }
-        let wide = self.signals.keys().map(|name| name.chars().count()).max().unwrap_or(0).max(10);
-        if !self.signals.is_empty() {
-            writeln!(f, "\n{:wide$}  {:>9}  {:>9}", "signal", "commands", "reports")?;
-        }
-        for (name, signal) in &self.signals {
-            writeln!(f, "{name:wide$}  {:>9}  {:>9}", signal.commands, signal.reports)?;
-        }
-        Ok(())
     }
 }
