@@ -137,6 +137,8 @@ fn start(command: &str, folder: &Path, place: &str) -> Child {
 
 fn walk(page: &Path) {
     let text = fs::read_to_string(page).expect("a page");
+    let mock = Path::new(env!("CARGO_BIN_EXE_kinetwin")).with_file_name("nxt-mock");
+    assert!(mock.exists(), "the walks need all programs built: run tools/test, or cargo build --workspace first");
     let folder = tempfile::tempdir().expect("a folder for the walk");
     for part in ["models", "signals-maps"] {
         copy(&root().join(part), &folder.path().join(part));
