@@ -130,7 +130,7 @@ impl Alone {
         }
         self.step(seconds);
         let [barrier_a, barrier_b] = [0.30, 1.70].map(|beam| self.boxes.cut(beam));
-        self.device.sense(&Surroundings { barrier_a, barrier_b, sealed: false });
+        self.device.sense(&Surroundings { barrier_a, barrier_b, ..Surroundings::default() });
     }
 
     fn step(&mut self, seconds: f64) {

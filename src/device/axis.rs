@@ -1,12 +1,15 @@
 //! One axis of a robot on its profile, with what stands in its signal path.
 
 use super::law::profile::{Limits, Profile};
+use super::law::{SAME_VALUE, STANDSTILL};
 use super::path::{Bounds, Moment, Motion, Stages};
 
 /// An axis, its motor's side and its load's side.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
     limits: Limits,
+    /// How far it may be from its target and have arrived, m or rad.
+    tolerance: f64,
     profile: Profile,
     target: f64,
     pub stages: Stages,
@@ -16,9 +19,10 @@ pub(super) struct Axis {
 
 impl Axis {
     /// An axis at rest at 0.
-    pub fn new(limits: Limits) -> Axis {
+    pub fn new(limits: Limits, tolerance: f64) -> Axis {
         Axis {
             limits,
+            tolerance,
             profile: Profile::new(limits),
             target: 0.0,
             stages: Stages::default(),
@@ -27,9 +31,11 @@ impl Axis {
         }
     }
 
-    /// Where it was last told to go.
-    pub fn target(&self) -> f64 {
-        if self.stages.is_nominal() { self.profile.target() } else { self.target }
+    /// Within its tolerance of where it was last told to go, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
+    pub fn arrived(&mut self) -> bool {
+        let is_there = is_there(self.motor(), self.target, self.tolerance);
+        let moment = self.stages.moment();
+        self.stages.actuator.arrived(is_there, moment)
     }
 
     /// Where it is to go from now on.
@@ -62,12 +68,14 @@ impl Axis {
         if self.stages.is_nominal() {
             return self.profile.advance(seconds);
         }
-        let Axis { limits, profile, target, stages, motor, load } = self;
+        let Axis { limits, tolerance, profile, target, stages, motor, load } = self;
         stages.stretches(seconds, |stages, moment| {
             profile.advance(moment.span);
             let law = Motion { position: profile.position(), velocity: profile.velocity() };
             *motor = stages.actuator.motion(law, moment);
             *load = stages.transmission.motion(*motor, moment);
+            // A stage that waits for the arrival sees it at the end of every stretch.
+            stages.actuator.arrived(is_there(*motor, *target, *tolerance), moment);
             pass(stages, profile, *limits, *target, *motor, moment);
         });
     }
@@ -77,6 +85,10 @@ impl Axis {
         self.profile.state(visit);
         self.stages.state(visit);
     }
+}
+
+fn is_there(motion: Motion, target: f64, tolerance: f64) -> bool {
+    (motion.position - target).abs() <= tolerance + SAME_VALUE && motion.velocity.abs() < STANDSTILL
 }
 
 /// Lets the target pass the actuator's stages and gives the profile what comes out.

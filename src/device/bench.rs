@@ -9,6 +9,7 @@ use crate::prototype::kind::{KindDescriptor, ParameterDescriptor, ParameterType}
 /// A device alone.
 pub struct Bench {
     pub kind: &'static KindDescriptor,
+    pub parameters: Parameters,
     pub device: Box<dyn Device>,
 }
 
@@ -44,8 +45,9 @@ impl Bench {
     /// A device of `kind`, its defaults but for what is set.
     pub fn new(kind: &str, set: &[(&str, &str)]) -> Bench {
         let kind = find(kind);
-        let device = build(kind, &parameters(kind, set), "Device1", 1).expect(kind.name);
-        Bench { kind, device }
+        let parameters = parameters(kind, set);
+        let device = build(kind, &parameters, "Device1", 1).expect(kind.name);
+        Bench { kind, parameters, device }
     }
 
     /// What is said of parameters that do not fit together.
@@ -78,7 +80,7 @@ impl Bench {
 
     /// Parts cut the beams, or do not.
     pub fn cut(&mut self, barrier_a: bool, barrier_b: bool) {
-        self.device.sense(&Surroundings { barrier_a, barrier_b, sealed: false });
+        self.device.sense(&Surroundings { barrier_a, barrier_b, ..Surroundings::default() });
     }
 
     /// A part is sealed at the cups, or is not.

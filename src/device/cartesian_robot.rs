@@ -1,14 +1,14 @@
 //! `kinetwin.CartesianRobot`: three linear axes and one rotary, each on its own trapezoidal profile.
 
 use crate::device::axis::Axis;
+use crate::device::law::moves;
 use crate::device::law::profile::Limits;
-use crate::device::law::{SAME_VALUE, STANDSTILL};
-use crate::device::path::{Motion, Stages};
+use crate::device::path::Stages;
 use crate::device::table::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, FASTEST, LEAST, LENGTH, LONGEST_M, STEEPEST, VELOCITY,
     indicator, measure, number, switch, target,
 };
-use crate::device::{Device, Role, Tool};
+use crate::device::{Device, Role, Surroundings, Tool};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
@@ -70,34 +70,28 @@ const POSITIONS: usize = 6;
 #[derive(Clone, Debug)]
 struct CartesianRobot {
     axes: [Axis; 4],
-    /// How far each may be from its target and have arrived, m, m, m, rad.
-    tolerances: [f64; 4],
     tool: Tool,
 }
 
 /// Builds one.
 pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
-    const LIMITS: [(&str, &str); 4] = [
-        ("maxVelocityX", "maxAccelerationX"),
-        ("maxVelocityY", "maxAccelerationY"),
-        ("maxVelocityZ", "maxAccelerationZ"),
-        ("maxVelocityR", "maxAccelerationR"),
+    const LIMITS: [(&str, &str, &str); 4] = [
+        ("maxVelocityX", "maxAccelerationX", "arrivedTolerance"),
+        ("maxVelocityY", "maxAccelerationY", "arrivedTolerance"),
+        ("maxVelocityZ", "maxAccelerationZ", "arrivedTolerance"),
+        ("maxVelocityR", "maxAccelerationR", "arrivedToleranceR"),
     ];
-    let axes = LIMITS.map(|(velocity, acceleration)| {
-        Axis::new(Limits { velocity: parameters.number(velocity), acceleration: parameters.number(acceleration) })
+    let axes = LIMITS.map(|(velocity, acceleration, tolerance)| {
+        let limits = Limits { velocity: parameters.number(velocity), acceleration: parameters.number(acceleration) };
+        Axis::new(limits, parameters.number(tolerance))
     });
-    let way = parameters.number("arrivedTolerance");
-    let tolerances = [way, way, way, parameters.number("arrivedToleranceR")];
-    Box::new(CartesianRobot { axes, tolerances, tool: Tool::default() })
+    Box::new(CartesianRobot { axes, tool: Tool::default() })
 }
 
 impl CartesianRobot {
     /// Every axis within its tolerance of the latest target, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
-    fn arrived(&self) -> bool {
-        self.axes.iter().zip(self.tolerances).all(|(axis, tolerance)| {
-            let Motion { position, velocity } = axis.motor();
-            (position - axis.target()).abs() <= tolerance + SAME_VALUE && velocity.abs() < STANDSTILL
-        })
+    fn arrived(&mut self) -> bool {
+        self.axes.iter_mut().fold(true, |all, axis| axis.arrived() && all)
     }
 }
 
@@ -144,6 +138,24 @@ impl Device for CartesianRobot {
             name == *axis || name.strip_suffix("Target") == Some(axis) || name.strip_prefix("actualPos") == Some(axis)
         })?;
         Some(&mut self.axes[axis].stages)
+    }
+
+    fn sense(&mut self, surroundings: &Surroundings) {
+        for axis in &mut self.axes {
+            axis.stages.loaded(f64::from(surroundings.parts), 0.0);
+        }
+    }
+
+    fn moving(&self) -> u32 {
+        self.axes.iter().map(|axis| u32::from(moves(axis.motor().velocity))).sum()
+    }
+
+    /// The axes are on one supply, too.
+    fn share(&mut self, others: u32) {
+        let all = others + self.moving();
+        for axis in &mut self.axes {
+            axis.stages.shared(f64::from(all - u32::from(moves(axis.motor().velocity))));
+        }
     }
 
     fn role(&self) -> Role<'_> {

@@ -4,7 +4,7 @@ use crate::device::driven::Driven;
 use crate::device::law::drive::DriveSettings;
 use crate::device::law::ramp::Slopes;
 use crate::device::law::{direction, moves};
-use crate::device::path::{Moment, Stages};
+use crate::device::path::Stages;
 use crate::device::table::{
     ACCELERATION, LEAST, LENGTH, LONGEST_M, LONGEST_S, STEEPEST, TIME, VELOCITY, choice, code, indicator, measure,
     number, option, state, target,
@@ -113,6 +113,7 @@ impl Conveyor {
             barriers: [barrier("barrierA")?, barrier("barrierB")?],
             beam_height: parameters.number("beamHeight"),
             transfer: if parameters.text("transfer") == "share" { Transfer::Share } else { Transfer::Most },
+            transfer_slip: 0.0,
         };
         Ok(Conveyor {
             velocity_target: 0.0,
@@ -150,16 +151,16 @@ impl Device for Conveyor {
 
     fn sense(&mut self, surroundings: &Surroundings) {
         self.beams = [surroundings.barrier_a, surroundings.barrier_b];
+        self.drive.stages.loaded(f64::from(surroundings.parts), f64::from(surroundings.queued));
     }
 
     fn advance(&mut self, seconds: f64) {
-        // Actuator and mechanics.
-        let way = self.drive.advance(seconds);
-        // Transmission: the belt follows the drum. Process: the parts follow the belt.
-        let before = self.belt.velocity;
+        // Actuator, mechanics and transmission: the belt follows the drum. Process: the parts follow the belt.
+        self.belt.displacement = self.drive.advance(seconds);
         self.belt.velocity = self.drive.load().velocity;
-        let moment = Moment { span: seconds, ..self.drive.stages.moment() };
-        self.belt.displacement = self.drive.stages.process.carried(way, self.belt.velocity, before, moment);
+        if !self.drive.stages.is_nominal() {
+            self.belt.transfer_slip = self.drive.stages.process.transfer_slip();
+        }
     }
 
     fn report(&mut self, reports: &mut [f64]) {
@@ -186,6 +187,19 @@ impl Device for Conveyor {
 
     fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
         Some(&mut self.drive.stages)
+    }
+
+    /// Both beams look along the belt.
+    fn travel(&self, port: usize) -> Option<f64> {
+        matches!(port, LIGHT_BARRIER_A | LIGHT_BARRIER_B).then(|| self.drive.carried())
+    }
+
+    fn moving(&self) -> u32 {
+        u32::from(moves(self.drive.velocity()))
+    }
+
+    fn share(&mut self, others: u32) {
+        self.drive.stages.shared(f64::from(others));
     }
 
     fn role(&self) -> Role<'_> {

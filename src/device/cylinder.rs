@@ -33,8 +33,12 @@ impl Cylinder {
 
     /// From now on it is driven so.
     pub fn command(&mut self, drive: Drive) {
-        self.drive = drive;
         let moment = self.stages.moment();
+        if !self.stages.is_nominal() && self.drive != drive {
+            // The other way has a coil of its own: the one lets go before the other draws.
+            self.stages.actuator.switched(false, moment);
+        }
+        self.drive = drive;
         self.pass(moment);
     }
 

@@ -16,6 +16,8 @@ pub(super) struct Driven {
     pub stages: Stages,
     motor: Motion,
     load: Motion,
+    /// How far what the load carries has moved, m or rad.
+    carried: f64,
 }
 
 impl Driven {
@@ -30,24 +32,29 @@ impl Driven {
             stages: Stages::default(),
             motor: Motion::default(),
             load: Motion::default(),
+            carried: 0.0,
         }
     }
 
     /// From now on it is `enabled` or not, and has to run at `reference`.
     pub fn command(&mut self, enabled: bool, reference: f64) {
         self.enabled = enabled;
-        self.reference = reference;
         if self.stages.is_nominal() {
+            self.reference = reference;
             self.drive.command(enabled, reference);
         } else {
+            // A drive that is still on though told to be off goes on as it went.
+            self.reference = if enabled { reference } else { self.reference };
             let moment = self.stages.moment();
-            pass(&mut self.stages, &mut self.drive, self.settings, (enabled, reference), self.motor, moment);
+            let command = (enabled, self.reference);
+            pass(&mut self.stages, &mut self.drive, self.settings, command, self.motor, moment);
         }
     }
 
-    /// Whether it is enabled and ready.
+    /// Whether it is enabled and ready. What switches late behind it, it does not know.
     pub fn ready(&self) -> bool {
-        self.drive.ready()
+        let follows_at_once = !self.stages.is_nominal() && self.settings.ready_delay == 0.0;
+        if follows_at_once { self.enabled } else { self.enabled && self.drive.ready() }
     }
 
     /// The speed its own sensor sees: the motor's side.
@@ -64,23 +71,31 @@ impl Driven {
         }
     }
 
-    /// Moves by `seconds` and returns the way gone by the load's side.
+    /// How far what the load carries has moved since the start.
+    pub fn carried(&self) -> f64 {
+        if self.stages.is_nominal() { self.travel.value() } else { self.carried }
+    }
+
+    /// Moves by `seconds` and returns the way gone by what the load carries: nominally that of the load's side.
     pub fn advance(&mut self, seconds: f64) -> f64 {
         if self.stages.is_nominal() {
             let way = self.drive.advance(seconds);
             self.travel.add(way);
             return way;
         }
-        let start = self.load.position;
-        let Driven { settings, drive, enabled, reference, travel, stages, motor, load } = self;
+        let start = self.carried;
+        let Driven { settings, drive, enabled, reference, travel, stages, motor, load, carried } = self;
         stages.stretches(seconds, |stages, moment| {
             travel.add(drive.advance(moment.span));
             let law = Motion { position: travel.value(), velocity: drive.velocity() };
             *motor = stages.actuator.motion(law, moment);
+            let before = *load;
             *load = stages.transmission.motion(*motor, moment);
+            let way = load.position - before.position;
+            *carried += stages.process.carried(way, load.velocity, before.velocity, moment);
             pass(stages, drive, *settings, (*enabled, *reference), *motor, moment);
         });
-        self.load.position - start
+        self.carried - start
     }
 
     /// Its numbers, for a state's hash.
@@ -88,6 +103,9 @@ impl Driven {
         self.drive.state(visit);
         self.travel.state(visit);
         self.stages.state(visit);
+        if !self.stages.is_nominal() {
+            visit(self.carried);
+        }
     }
 }
 

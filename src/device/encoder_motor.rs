@@ -4,6 +4,7 @@ use crate::device::Device;
 use crate::device::conveyor::drive_settings;
 use crate::device::driven::Driven;
 use crate::device::law::encoder::Encoder;
+use crate::device::law::moves;
 use crate::device::path::Stages;
 use crate::device::table::{
     ANGULAR_ACCELERATION, ANGULAR_VELOCITY, LEAST, LONGEST_S, STEEPEST, TIME, counter, indicator, integer, measure,
@@ -104,6 +105,14 @@ impl Device for EncoderMotor {
 
     fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
         Some(&mut self.drive.stages)
+    }
+
+    fn moving(&self) -> u32 {
+        u32::from(moves(self.drive.velocity()))
+    }
+
+    fn share(&mut self, others: u32) {
+        self.drive.stages.shared(f64::from(others));
     }
 }
 

@@ -41,6 +41,10 @@ pub static KINDS: &[&KindDescriptor] = &[
     &encoder_motor::KIND,
 ];
 
+/// The boolean reports whose sensors look along a way: those for which [`Device::travel`] has an answer.
+pub const SWITCHES_ALONG_A_WAY: &[&str] =
+    &["lightBarrierA", "lightBarrierB", "lightbarrierA", "lightbarrierB", "limitExtended", "limitRetracted"];
+
 /// Parameters that are each in their range, and do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{instance}: {parameter} {problem}")]
@@ -121,6 +125,20 @@ pub trait Device: Send {
         None
     }
 
+    /// What the boolean sensor of a report port looks along, m or rad: how far the belt or the rod has moved. `None` where
+    /// it looks along nothing that moves.
+    fn travel(&self, _port: usize) -> Option<f64> {
+        None
+    }
+
+    /// How many of its actuators move now: what else is on their supply may feel it.
+    fn moving(&self) -> u32 {
+        0
+    }
+
+    /// From now on so many actuators of other devices on the same supply move.
+    fn share(&mut self, _others: u32) {}
+
     /// What it is to the parts.
     fn role(&self) -> Role<'_> {
         Role::Apart
@@ -142,6 +160,10 @@ pub struct Surroundings {
     pub barrier_b: bool,
     /// A part is sealed at the cups; while vacuum holds a part it stays so.
     pub sealed: bool,
+    /// How many parts a belt carries, a plate pushes, or a robot's cups hold, those that stand on others apart.
+    pub parts: u32,
+    /// How many of a belt's parts are held back by what stands in their way.
+    pub queued: u32,
 }
 
 /// What a device is to the parts: how the engine's part phase sees it.
@@ -203,6 +225,8 @@ pub struct Belt {
     pub beam_height: f64,
     /// How a part that stands on this belt and on another is carried.
     pub transfer: Transfer,
+    /// Which share of its way on this belt such a part loses; 0 nominally.
+    pub transfer_slip: f64,
 }
 
 /// How a part on two belts moves.

@@ -7,8 +7,9 @@
 //! A [`Stage`] is something a real device adds at one place of that path: a dead time, a friction, a backlash. Every
 //! method of it is the identity unless it says otherwise, so that a device strings its stages along its law without
 //! knowing them. A device whose path holds no stage computes its nominal law by the same instructions as ever: bit by bit
-//! the same result. With stages it moves in short stretches of at most [`STRETCH_S`], because a stage is a law of its own
-//! that is only known from one instant to the next.
+//! the same result. With stages it moves in stretches no longer than the most particular of them bears
+//! ([`Stage::stretch`]): a stage whose law is exact over any span bears any, one that is only known from one instant to the
+//! next asks for at most [`STRETCH_S`].
 
 use std::fmt;
 
@@ -16,7 +17,7 @@ use super::law::SAME_INSTANT_S;
 use super::law::sum::Sum;
 use crate::plant::EffectPlace;
 
-/// The longest stretch that a device with stages moves at once, s.
+/// The longest stretch of a stage that does not say otherwise, s.
 pub const STRETCH_S: f64 = 1e-3;
 
 /// Where something is and how fast it moves: m and m/s, or rad and rad/s.
@@ -60,6 +61,15 @@ pub struct Friction {
     pub viscous: f64,
 }
 
+/// What goes through an axis's gears.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Drive less load: what would accelerate the axis without friction, N or N·m.
+    pub net: f64,
+    /// Drive and load together, as both press on the gears, N or N·m.
+    pub transmitted: f64,
+}
+
 /// What a drive has to move beside friction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Burden {
@@ -89,6 +99,20 @@ pub trait Stage: Send + Sync + fmt::Debug {
         value
     }
 
+    /// The longest stretch that the stage bears, s: what it computes over a longer one would be off.
+    fn stretch(&self) -> f64 {
+        STRETCH_S
+    }
+
+    /// What a boolean sensor looks along has moved to `travel` (m or rad), for the [`signal`](Stage::signal) that follows.
+    fn travelled(&mut self, _travel: f64) {}
+
+    /// How many parts the device carries or pushes now, and how many of them are held back by what stands in their way.
+    fn loaded(&mut self, _parts: f64, _queued: f64) {}
+
+    /// How many other actuators on the same supply move now.
+    fn shared(&mut self, _others: f64) {}
+
     /// When the exit will next change by itself, if that is known: the device ends a stretch there.
     fn next_change(&self) -> Option<f64> {
         None
@@ -105,7 +129,13 @@ pub trait Stage: Send + Sync + fmt::Debug {
         bounds
     }
 
-    /// The force of a drive passes on its way to the axis, N or N·m; only where [`shapes_effort`](Stage::shapes_effort).
+    /// Which share of the force that a drive exerts reaches the axis, the force being `effort` now; above 0.
+    fn strength(&self, _effort: f64) -> f64 {
+        1.0
+    }
+
+    /// The force of a drive passes on its way to the axis, N or N·m: `effort` is what it will be at the end of the stretch,
+    /// the result what it is in the stretch's mean. Only where [`shapes_effort`](Stage::shapes_effort).
     fn effort(&mut self, effort: f64, _moment: Moment) -> f64 {
         effort
     }
@@ -125,8 +155,8 @@ pub trait Stage: Send + Sync + fmt::Debug {
         motion
     }
 
-    /// The friction about a motion under the force `driving` (drive less load, N or N·m).
-    fn friction(&mut self, friction: Friction, _motion: Motion, _driving: f64) -> Friction {
+    /// The friction about a motion under an effort.
+    fn friction(&mut self, friction: Friction, _motion: Motion, _effort: Effort) -> Friction {
         friction
     }
 
@@ -144,6 +174,16 @@ pub trait Stage: Send + Sync + fmt::Debug {
     /// `before` at the stretch's start (m/s).
     fn carried(&mut self, displacement: f64, _velocity: f64, _before: f64, _moment: Moment) -> f64 {
         displacement
+    }
+
+    /// Which share of its way a part loses while it stands on this belt and on another.
+    fn transfer_slip(&self) -> f64 {
+        0.0
+    }
+
+    /// Whether an axis counts as arrived that is at rest at its target, or is not.
+    fn arrived(&mut self, is_there: bool, _moment: Moment) -> bool {
+        is_there
     }
 
     /// Gives every number of its state to `visit`, in an order that never changes.
@@ -193,6 +233,11 @@ impl Path {
         self.stages.iter_mut().fold(bounds, |bounds, stage| stage.bounds(bounds, motion, moment))
     }
 
+    /// See [`Stage::strength`].
+    pub fn strength(&self, effort: f64) -> f64 {
+        self.stages.iter().map(|stage| stage.strength(effort)).product()
+    }
+
     /// See [`Stage::effort`].
     pub fn effort(&mut self, effort: f64, moment: Moment) -> f64 {
         self.stages.iter_mut().fold(effort, |effort, stage| stage.effort(effort, moment))
@@ -214,8 +259,8 @@ impl Path {
     }
 
     /// See [`Stage::friction`].
-    pub fn friction(&mut self, friction: Friction, motion: Motion, driving: f64) -> Friction {
-        self.stages.iter_mut().fold(friction, |friction, stage| stage.friction(friction, motion, driving))
+    pub fn friction(&mut self, friction: Friction, motion: Motion, effort: Effort) -> Friction {
+        self.stages.iter_mut().fold(friction, |friction, stage| stage.friction(friction, motion, effort))
     }
 
     /// See [`Stage::burden`].
@@ -233,6 +278,26 @@ impl Path {
         self.stages.iter_mut().fold(displacement, |way, stage| stage.carried(way, velocity, before, moment))
     }
 
+    /// The longest stretch that all stages bear, s; infinite without one.
+    pub fn stretch(&self) -> f64 {
+        self.stages.iter().map(|stage| stage.stretch()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// See [`Stage::travelled`].
+    pub fn travelled(&mut self, travel: f64) {
+        self.stages.iter_mut().for_each(|stage| stage.travelled(travel));
+    }
+
+    /// See [`Stage::transfer_slip`]; what is left after one is what the next takes its share of.
+    pub fn transfer_slip(&self) -> f64 {
+        1.0 - self.stages.iter().map(|stage| 1.0 - stage.transfer_slip()).product::<f64>()
+    }
+
+    /// See [`Stage::arrived`].
+    pub fn arrived(&mut self, is_there: bool, moment: Moment) -> bool {
+        self.stages.iter_mut().fold(is_there, |is_there, stage| stage.arrived(is_there, moment))
+    }
+
     /// See [`Stage::state`].
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {
         for stage in &self.stages {
@@ -244,6 +309,12 @@ impl Path {
 /// All stages inside one component of a device, by their place.
 #[derive(Clone, Debug, Default)]
 pub struct Stages {
+    /// Whether there is any; kept because it is asked for at every step of every device.
+    has_any: bool,
+    /// Whether [`Path::shapes_effort`] holds of the actuator.
+    shapes_effort: bool,
+    /// The longest stretch that all bear, s.
+    longest: f64,
     pub actuator: Path,
     pub mechanics: Path,
     pub transmission: Path,
@@ -263,6 +334,9 @@ impl Stages {
             EffectPlace::Process => self.process.push(stage),
             EffectPlace::CommandLink | EffectPlace::Sensor | EffectPlace::ReportLink => return Err(stage),
         }
+        self.has_any = true;
+        self.shapes_effort = self.actuator.shapes_effort();
+        self.longest = self.paths().iter().map(|path| path.stretch()).fold(f64::INFINITY, f64::min);
         Ok(())
     }
 
@@ -270,9 +344,39 @@ impl Stages {
         [&self.actuator, &self.mechanics, &self.transmission, &self.load, &self.process]
     }
 
+    fn each(&mut self, mut act: impl FnMut(&mut dyn Stage)) {
+        let paths =
+            [&mut self.actuator, &mut self.mechanics, &mut self.transmission, &mut self.load, &mut self.process];
+        paths.into_iter().flat_map(|path| &mut path.stages).for_each(|stage| act(stage.as_mut()));
+    }
+
     /// Whether nothing stands anywhere: the nominal law alone holds.
     pub fn is_nominal(&self) -> bool {
-        self.paths().iter().all(|path| path.is_nominal())
+        !self.has_any
+    }
+
+    /// See [`Path::shapes_effort`], of the actuator.
+    pub fn shapes_effort(&self) -> bool {
+        self.shapes_effort
+    }
+
+    /// See [`Stage::loaded`].
+    pub fn loaded(&mut self, parts: f64, queued: f64) {
+        if self.has_any {
+            self.each(|stage| stage.loaded(parts, queued));
+        }
+    }
+
+    /// See [`Stage::shared`].
+    pub fn shared(&mut self, others: f64) {
+        if self.has_any {
+            self.each(|stage| stage.shared(others));
+        }
+    }
+
+    /// Lets time pass where nothing moves in stages.
+    pub fn pass_time(&mut self, seconds: f64) {
+        self.now.add(seconds);
     }
 
     /// The present instant, for a value that changed at once.
@@ -289,7 +393,9 @@ impl Stages {
             let until = change.map_or(f64::INFINITY, |at| at - self.now.value());
             // A change that is due, or so near that time would not move, does not hold time up.
             let until = if until > SAME_INSTANT_S { until } else { f64::INFINITY };
-            let span = rest.min(STRETCH_S).min(until);
+            let span = rest.min(self.longest).min(until);
+            // What rounding leaves of the whole is no stretch of its own.
+            let span = if rest - span < SAME_INSTANT_S { rest } else { span };
             rest -= span;
             self.now.add(span);
             let moment = Moment { now: self.now.value(), span };

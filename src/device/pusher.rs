@@ -100,6 +100,7 @@ impl Device for Pusher {
 
     fn sense(&mut self, surroundings: &Surroundings) {
         self.beams = [surroundings.barrier_a, surroundings.barrier_b];
+        self.cylinder.stages.loaded(f64::from(surroundings.parts), f64::from(surroundings.queued));
     }
 
     fn advance(&mut self, seconds: f64) {
@@ -133,6 +134,20 @@ impl Device for Pusher {
 
     fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
         Some(&mut self.cylinder.stages)
+    }
+
+    /// Switches and beams look along the rod.
+    fn travel(&self, port: usize) -> Option<f64> {
+        let looks = [LIMIT_EXTENDED, LIMIT_RETRACTED, LIGHTBARRIER_A, LIGHTBARRIER_B].contains(&port);
+        looks.then(|| self.cylinder.rod().position)
+    }
+
+    fn moving(&self) -> u32 {
+        u32::from(moves(self.cylinder.rod().velocity))
+    }
+
+    fn share(&mut self, others: u32) {
+        self.cylinder.stages.shared(f64::from(others));
     }
 
     fn role(&self) -> Role<'_> {

@@ -1,14 +1,15 @@
 //! `kinetwin.ServoAxis`: one axis under a servo drive, linear or rotary.
 
+use crate::device::law::moves;
 use crate::device::law::profile::{Limits, Profile};
 use crate::device::law::servo::{HIGHEST_RATE, Loop, Mechanics, Servo};
 use crate::device::law::slope::Slope;
 use crate::device::path::{Bounds, Moment, Motion, Stages};
-use crate::device::servo_path::{self, Nominal};
+use crate::device::servo_path::{self, Exertion, Nominal};
 use crate::device::table::{
     EFFORT, LENGTH, LONGEST_M, LONGEST_S, SPEED, TIME, TRAVEL, choice, measure, number, switch, target,
 };
-use crate::device::{BuildError, Device, misfit};
+use crate::device::{BuildError, Device, Surroundings, misfit};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 use crate::value::Quantity;
@@ -114,6 +115,9 @@ struct ServoAxis {
     servo: Servo,
     nominal: Nominal,
     stages: Stages,
+    /// Whether the drive was told that it may exert a force.
+    torque: bool,
+    exertion: Exertion,
     /// With stages: where an ideal axis is before its transmission, on its way under its drive's limits.
     tracked: Motion,
     motor: Motion,
@@ -149,6 +153,8 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
         return Err(misfit(instance, "M", problem));
     }
     let position_target = Slope::default();
+    let free = f64::INFINITY;
+    let bounds = Bounds { velocity: free, acceleration: free, deceleration: free, force: drive.limit };
     Ok(Box::new(ServoAxis {
         mode,
         position_target,
@@ -157,6 +163,8 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
         servo,
         nominal: Nominal { drive, mechanics },
         stages: Stages::default(),
+        torque: true,
+        exertion: Exertion { bounds, passed: 0.0 },
         tracked: Motion::default(),
         motor: Motion::default(),
         load: Motion::default(),
@@ -201,75 +209,173 @@ impl ServoAxis {
     }
 }
 
+/// What a position loop makes of its control error, over a range of it: one that passes stages and a speed limit is a
+/// broken line, and a line on each of its pieces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Piece {
+    /// The loop sees the error, shifted by so much.
+    Sees { shift: f64 },
+    /// It sees none.
+    Blind,
+    /// It asks for its highest speed, this way.
+    Fastest { way: f64 },
+}
+
+/// How many pieces a stretch may pass: one that rounding makes flicker is computed on as it is.
+const MOST_PIECES: u32 = 8;
+/// How often the instant at which a piece is left is halved: a millionth of a stretch.
+const HALVINGS: u32 = 20;
+
 /// With stages in the path.
 impl ServoAxis {
     fn advance_with_stages(&mut self, seconds: f64) {
         let mut stages = std::mem::take(&mut self.stages);
         stages.stretches(seconds, |stages, moment| {
             self.position_target.advance(moment.span);
-            self.motor = if self.mode == Mode::Ideal {
-                let law = self.track(stages, moment);
-                stages.actuator.motion(law, moment)
-            } else {
-                self.drive(stages, moment)
-            };
+            self.motor = if self.mode == Mode::Ideal { self.track(stages, moment) } else { self.drive(stages, moment) };
             self.load = stages.transmission.motion(self.motor, moment);
         });
         self.stages = stages;
     }
 
-    /// The loop moves the axis; its reference is what the stages leave of the control error.
+    /// Takes a command up at once, as far as that is possible.
+    fn take_up(&mut self) {
+        let mut stages = std::mem::take(&mut self.stages);
+        let moment = stages.moment();
+        if self.mode == Mode::Ideal {
+            self.motor = self.track(&mut stages, moment);
+            self.load = stages.transmission.motion(self.motor, moment);
+        } else {
+            self.servo.torque = stages.actuator.switched(self.torque, moment);
+            let piece = self.piece(&mut stages, moment);
+            self.close_loop(piece, &mut stages, moment);
+        }
+        self.stages = stages;
+    }
+
+    /// The loop moves the axis, piece by piece of what it makes of its error.
     fn drive(&mut self, stages: &mut Stages, moment: Moment) -> Motion {
-        let motion = Motion { position: self.servo.position(), velocity: self.servo.velocity() };
-        let bounds = servo_path::bounds(stages, &self.nominal, motion, moment);
-        self.servo.limit(bounds.force);
-        self.servo.reference = self.reference() + self.correction(stages, bounds, motion, moment);
-        servo_path::advance(&mut self.servo, &self.nominal, stages, moment);
+        self.servo.torque = stages.actuator.switched(self.torque, moment);
+        let motion = self.motion();
+        self.exertion.bounds = servo_path::bounds(stages, &self.nominal, motion, moment);
+        let mut rest = moment.span;
+        for left in (0..MOST_PIECES).rev() {
+            let start = Moment { now: moment.now - rest, span: rest };
+            let piece = self.piece(stages, start);
+            self.close_loop(piece, stages, start);
+            let taken =
+                if left > 0 { self.along(piece, stages, moment, rest) } else { self.move_by(stages, moment, rest) };
+            rest -= taken;
+            if rest <= 0.0 {
+                break;
+            }
+        }
+        self.motion()
+    }
+
+    /// Moves on `piece` by `span`, or to the instant at which it is left; returns how long that took.
+    fn along(&mut self, piece: Option<Piece>, stages: &mut Stages, moment: Moment, span: f64) -> f64 {
+        let (servo, exertion) = (self.servo, self.exertion);
+        self.move_by(stages, moment, span);
+        if stages.shapes_effort() || self.piece(stages, moment) == piece {
+            return span;
+        }
+        let (mut on, mut off) = (0.0, span);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (on + off);
+            (self.servo, self.exertion) = (servo, exertion);
+            self.move_by(stages, moment, middle);
+            if self.piece(stages, moment) == piece { on = middle } else { off = middle }
+        }
+        (self.servo, self.exertion) = (servo, exertion);
+        self.move_by(stages, moment, off);
+        off
+    }
+
+    fn move_by(&mut self, stages: &mut Stages, moment: Moment, span: f64) -> f64 {
+        let moment = Moment { span, ..moment };
+        servo_path::advance(&mut self.servo, &self.nominal, &mut self.exertion, stages, moment);
+        span
+    }
+
+    fn motion(&self) -> Motion {
         Motion { position: self.servo.position(), velocity: self.servo.velocity() }
     }
 
-    /// By how much the loop's demand changes because the control error passes the actuator's stages, and because a
-    /// speed that is asked for is bounded.
-    fn correction(&self, stages: &mut Stages, bounds: Bounds, motion: Motion, moment: Moment) -> f64 {
-        let fastest = bounds.velocity;
-        match self.mode {
-            Mode::Cascade { position_gain, velocity_gain, .. } => {
-                let error = self.position_target.value() - motion.position;
-                let passed = stages.actuator.reference(error, motion, moment);
-                velocity_gain * ((position_gain * passed).clamp(-fastest, fastest) - position_gain * error)
+    /// The piece that the present error lies on; `None` where there is no position loop.
+    fn piece(&self, stages: &mut Stages, moment: Moment) -> Option<Piece> {
+        let (gain, fastest) = match self.mode {
+            Mode::Cascade { position_gain, .. } => (position_gain, self.exertion.bounds.velocity),
+            Mode::Proportional { .. } => (0.0, f64::INFINITY),
+            _ => return None,
+        };
+        let error = self.position_target.value() - self.servo.position();
+        let seen = stages.actuator.reference(error, self.motion(), moment);
+        Some(match seen {
+            0.0 if error != 0.0 => Piece::Blind,
+            _ if (gain * seen).abs() > fastest => Piece::Fastest { way: seen.signum() },
+            // Rounding apart, the shift is one on all of the piece.
+            _ => Piece::Sees { shift: rounded(seen - error) },
+        })
+    }
+
+    /// Lets the loop demand what it makes of its error on `piece`.
+    fn close_loop(&mut self, piece: Option<Piece>, stages: &mut Stages, moment: Moment) {
+        let reference = self.reference();
+        let fastest = self.exertion.bounds.velocity;
+        let gain = self.nominal.drive.position_gain;
+        let target = self.position_target.value();
+        let (gain, reference) = match (piece, self.mode) {
+            (Some(Piece::Sees { shift }), _) => (gain, reference + gain * shift),
+            (Some(Piece::Blind), _) => (0.0, reference - gain * target),
+            (Some(Piece::Fastest { way }), Mode::Cascade { velocity_gain, .. }) => {
+                (0.0, reference - gain * target + velocity_gain * way * fastest)
             }
-            Mode::Proportional { gain } => {
-                let error = self.position_target.value() - motion.position;
-                gain * (stages.actuator.reference(error, motion, moment) - error)
+            (None, Mode::Velocity { gain }) => {
+                let asked = stages.actuator.reference(self.velocity_target, self.motion(), moment);
+                (0.0, gain * asked.clamp(-fastest, fastest))
             }
-            Mode::Velocity { gain } => {
-                let passed = stages.actuator.reference(self.velocity_target, motion, moment);
-                gain * (passed.clamp(-fastest, fastest) - self.velocity_target)
+            (None, Mode::Force { gain }) => {
+                (0.0, gain * stages.actuator.reference(self.force_target, self.motion(), moment))
             }
-            Mode::Force { gain } => {
-                gain * (stages.actuator.reference(self.force_target, motion, moment) - self.force_target)
-            }
-            Mode::Ideal => 0.0,
-        }
+            _ => (gain, reference),
+        };
+        self.servo.feed_back(gain);
+        self.servo.reference = reference;
     }
 
     /// An ideal axis follows its target as fast as its drive's limits let it: at once where there are none.
     fn track(&mut self, stages: &mut Stages, moment: Moment) -> Motion {
         let before = self.tracked;
         let bounds = servo_path::bounds(stages, &self.nominal, before, moment);
-        let target = stages.actuator.reference(self.position_target.value(), before, moment);
-        self.tracked = if bounds.acceleration.is_finite() {
+        let error = self.position_target.value() - before.position;
+        let error = stages.actuator.reference(error, before, moment);
+        if bounds.acceleration.is_finite() {
             let limits = Limits { velocity: bounds.velocity.min(1e9), acceleration: bounds.acceleration };
+            let target = before.position + error;
             let mut profile = Profile::under_way(limits, before.position, before.velocity, target);
             profile.advance(moment.span);
-            Motion { position: profile.position(), velocity: profile.velocity() }
-        } else {
+            self.tracked = Motion { position: profile.position(), velocity: profile.velocity() };
+        } else if bounds.velocity.is_finite() {
             let most = bounds.velocity * moment.span;
-            let step = (target - before.position).clamp(-most, most);
-            Motion { position: before.position + step, velocity: step / moment.span }
-        };
-        self.tracked
+            let step = error.clamp(-most, most);
+            self.tracked.position += step;
+            if moment.span > 0.0 {
+                self.tracked.velocity = step / moment.span;
+            }
+        } else {
+            // Unless a stage holds it back it is where it is told to be, to the last bit.
+            let target = self.position_target.value();
+            let position = if error == target - before.position { target } else { before.position + error };
+            self.tracked = Motion { position, velocity: self.position_target.rate() };
+        }
+        stages.actuator.motion(self.tracked, moment)
     }
+}
+
+/// To a part in 2³⁰: shifts that differ by rounding alone are one shift.
+fn rounded(shift: f64) -> f64 {
+    (shift * 1_073_741_824.0).round() / 1_073_741_824.0
 }
 
 impl Device for ServoAxis {
@@ -278,10 +384,26 @@ impl Device for ServoAxis {
             POSITION_TARGET => self.position_target.set(value),
             VELOCITY_TARGET => self.velocity_target = value,
             FORCE_TARGET => self.force_target = value,
-            TORQUE_ENABLED => self.servo.torque = value != 0.0,
+            TORQUE_ENABLED => (self.torque, self.servo.torque) = (value != 0.0, value != 0.0),
             _ => return,
         }
-        self.servo.reference = self.reference();
+        if self.stages.is_nominal() {
+            self.servo.reference = self.reference();
+        } else {
+            self.take_up();
+        }
+    }
+
+    fn sense(&mut self, surroundings: &Surroundings) {
+        self.stages.loaded(f64::from(surroundings.parts), 0.0);
+    }
+
+    fn moving(&self) -> u32 {
+        u32::from(moves(if self.stages.is_nominal() { self.servo.velocity() } else { self.motor.velocity }))
+    }
+
+    fn share(&mut self, others: u32) {
+        self.stages.shared(f64::from(others));
     }
 
     fn advance(&mut self, seconds: f64) {
@@ -320,6 +442,7 @@ impl Device for ServoAxis {
         visit(self.force_target);
         self.servo.state(visit);
         self.stages.state(visit);
+        visit(self.exertion.passed);
         for motion in [self.tracked, self.motor, self.load] {
             visit(motion.position);
             visit(motion.velocity);

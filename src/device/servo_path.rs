@@ -6,7 +6,7 @@
 //! B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008, section 1.3).
 
 use super::law::servo::{Loop, Mechanics, Servo};
-use super::path::{Bounds, Burden, Friction, Moment, Motion, Stages};
+use super::path::{Bounds, Burden, Effort, Friction, Moment, Motion, Stages};
 
 /// How often the place where the motion comes to rest is halved: a millionth of a stretch.
 const HALVINGS: u32 = 20;
@@ -31,51 +31,97 @@ pub(super) fn bounds(stages: &mut Stages, nominal: &Nominal, motion: Motion, mom
     stages.actuator.bounds(bounds, motion, moment)
 }
 
+/// An axis with stages: what is bounded about its drive, and what of the drive's force reached the axis last.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Exertion {
+    pub bounds: Bounds,
+    /// N or N·m.
+    pub passed: f64,
+}
+
 /// Moves `servo` by the stretch that ends at `moment`.
-pub(super) fn advance(servo: &mut Servo, nominal: &Nominal, stages: &mut Stages, moment: Moment) {
+pub(super) fn advance(
+    servo: &mut Servo,
+    nominal: &Nominal,
+    exertion: &mut Exertion,
+    stages: &mut Stages,
+    moment: Moment,
+) {
     let mut rest = moment.span;
     while rest > 0.0 {
-        let span = if stages.actuator.shapes_effort() { rest.min(EFFORT_STRETCH_S) } else { rest };
+        let span = if stages.shapes_effort() { rest.min(EFFORT_STRETCH_S) } else { rest };
         rest -= span;
         let part = Moment { now: moment.now - rest, span };
-        let taken = stretch(servo, nominal, stages, part);
+        let taken = stretch(servo, nominal, exertion, stages, part);
         rest += span - taken;
     }
 }
 
 /// Moves by at most `moment.span`, no further than to where the motion comes to rest; returns how long that took.
-fn stretch(servo: &mut Servo, nominal: &Nominal, stages: &mut Stages, moment: Moment) -> f64 {
+///
+/// A drive of which only a share s reaches the axis moves it as a whole drive would move 1/s of everything that resists:
+/// s·F = M·dv/dt + R is F = (M/s)·dv/dt + R/s. So the loop's own law stays exact.
+fn stretch(servo: &mut Servo, nominal: &Nominal, exertion: &mut Exertion, stages: &mut Stages, moment: Moment) -> f64 {
     let motion = Motion { position: servo.position(), velocity: servo.velocity() };
     let Mechanics { inertia, viscous_friction, load, pendulum } = nominal.mechanics;
     let burden = stages.load.burden(Burden { inertia, force: load }, motion, moment);
+    let burden = stages.transmission.burden(burden, motion, moment);
     let bare = Mechanics { inertia: burden.inertia, viscous_friction, load: burden.force, pendulum };
     servo.burden(bare);
+    let share = stages.actuator.strength(servo.force());
+    bound(servo, exertion.bounds, share, moment.span);
     let effort = servo.force();
-    let passed = stages.actuator.effort(effort, moment);
-    // What the drive would exert if nothing stood in its way, and what is left of it.
-    let driving = servo.driving() - effort + passed;
+    let opposing = servo.resistance() - viscous_friction * motion.velocity;
+    let passed = if stages.shapes_effort() {
+        let acceleration = (share * exertion.passed - servo.resistance()) / burden.inertia;
+        let ahead = servo.force_after(moment.span, if motion.velocity == 0.0 { 0.0 } else { acceleration });
+        stages.actuator.effort(ahead, moment)
+    } else {
+        effort
+    };
+    exertion.passed = passed;
+    // What is left of the drive's force against the load.
+    let driving = share * passed - opposing;
     let base = Friction { sliding: 0.0, sticking: 0.0, viscous: viscous_friction };
-    let friction = stages.mechanics.friction(base, motion, driving);
+    let transmitted = (share * passed + opposing).abs();
+    let friction = stages.mechanics.friction(base, motion, Effort { net: driving, transmitted });
     if motion.velocity == 0.0 && driving.abs() <= friction.sticking {
         servo.wait(moment.span);
         return moment.span;
     }
     let way = if motion.velocity == 0.0 { driving.signum() } else { motion.velocity.signum() };
-    let rubbed = Mechanics { viscous_friction: friction.viscous, load: bare.load + way * friction.sliding, ..bare };
     let mut mover = *servo;
-    mover.burden(rubbed);
-    if stages.actuator.shapes_effort() {
+    mover.burden(Mechanics {
+        inertia: bare.inertia / share,
+        viscous_friction: friction.viscous / share,
+        load: (bare.load + way * friction.sliding) / share,
+        pendulum: pendulum / share,
+    });
+    if stages.shapes_effort() {
         mover.open(passed);
         servo.wait(moment.span);
     }
     let taken = until_rest(&mut mover, way, friction.sliding.max(friction.sticking) > 0.0, moment.span);
-    if stages.actuator.shapes_effort() {
+    if stages.shapes_effort() {
         servo.follow(&mover);
     } else {
         *servo = mover;
         servo.burden(bare);
     }
     taken
+}
+
+/// Limits the drive's force, also so that it accelerates the axis no more than it may: F ≤ M·a + R in the way it drives,
+/// with R as it will be in the middle of the stretch.
+fn bound(servo: &mut Servo, bounds: Bounds, share: f64, span: f64) {
+    servo.limit(bounds.force);
+    if bounds.acceleration.is_finite() {
+        let Mechanics { inertia, viscous_friction, .. } = servo.moved();
+        let gained = 0.5 * bounds.acceleration * span;
+        let resisting = servo.resistance() * servo.force().signum() + viscous_friction * gained;
+        let most = (inertia * bounds.acceleration + resisting) / share;
+        servo.limit(bounds.force.min(most.max(0.0)));
+    }
 }
 
 /// Moves by `span`, or to the instant at which the motion along `way` comes to rest, if friction may hold it there.

@@ -2,24 +2,37 @@
 //!
 //! These places lie outside the device's law, so they are strung around any device without its knowing. The stages see
 //! every change of a command at its instant, and every report at the end of each stretch and whenever it is asked for.
+//! Signals may also be swapped: then two of a device's commands, or of its reports, change places before all stages.
 
-use crate::device::path::{Moment, Path, STRETCH_S, Stages};
+use crate::device::law::SAME_INSTANT_S;
+use crate::device::path::{Moment, Path, Stages};
 use crate::device::{Belt, Device, Plate, Role, Surroundings, Tool};
 
 /// A device with stages around it.
 #[derive(Clone)]
 pub struct Affected {
     inner: Box<dyn Device>,
-    /// For each port: the stages its signal passes.
-    paths: Vec<Path>,
-    /// For each port: whether it is a command.
-    is_command: Vec<bool>,
-    /// For each command port: what was commanded.
-    commanded: Vec<f64>,
+    signals: Vec<Signal>,
+    /// The longest stretch that all stages bear, s.
+    longest: f64,
+    /// Whether any report passes a stage.
+    reports_pass: bool,
     now: f64,
     reports: Vec<f64>,
     /// What the parts see, over all stretches of one `advance`.
     moved: Option<Moved>,
+}
+
+/// What stands about one port of the device.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    /// The stages that its signal passes.
+    pub path: Path,
+    pub is_command: bool,
+    /// What it was last commanded to be; at first, what the device takes it for until it is commanded.
+    pub commanded: f64,
+    /// The port that it leads to or comes from: its own, unless it is swapped with another.
+    pub port: usize,
 }
 
 /// The role of a device that moves in several stretches: displacements are added up.
@@ -31,20 +44,26 @@ enum Moved {
 }
 
 impl Affected {
-    /// A device whose `paths`, one for each port, are passed by its signals.
-    pub fn new(inner: Box<dyn Device>, paths: Vec<Path>, is_command: Vec<bool>) -> Affected {
-        let ports = paths.len();
-        let mut affected = Affected {
-            inner,
-            paths,
-            is_command,
-            commanded: vec![0.0; ports],
-            now: 0.0,
-            reports: vec![0.0; ports],
-            moved: None,
-        };
-        affected.pass_commands(0.0);
+    /// A device with its `signals`, one for each port.
+    pub fn new(inner: Box<dyn Device>, signals: Vec<Signal>) -> Affected {
+        let longest = signals.iter().map(|signal| signal.path.stretch()).fold(f64::INFINITY, f64::min);
+        let reports_pass = signals.iter().any(|signal| !signal.is_command && !signal.path.is_nominal());
+        let reports = vec![0.0; signals.len()];
+        let mut affected = Affected { inner, signals, longest, reports_pass, now: 0.0, reports, moved: None };
+        affected.first_commands();
         affected
+    }
+
+    /// Shows the stages of the command links what stands at their entry at the start, and the device what comes out of it.
+    fn first_commands(&mut self) {
+        for Signal { path, is_command, commanded, port } in &mut self.signals {
+            if *is_command && !path.is_nominal() {
+                let exit = path.signal(*commanded, Moment::default());
+                if exit != *commanded {
+                    self.inner.command(*port, exit);
+                }
+            }
+        }
     }
 
     fn moment(&self, span: f64) -> Moment {
@@ -54,32 +73,51 @@ impl Affected {
     /// Gives the inner device what stands at the exit of its command links now.
     fn pass_commands(&mut self, span: f64) {
         let moment = self.moment(span);
-        for port in 0..self.paths.len() {
-            if self.is_command[port] && !self.paths[port].is_nominal() {
-                let exit = self.paths[port].signal(self.commanded[port], moment);
-                self.inner.command(port, exit);
+        for Signal { path, is_command, commanded, port } in &mut self.signals {
+            if *is_command && !path.is_nominal() {
+                let exit = path.signal(*commanded, moment);
+                self.inner.command(*port, exit);
             }
         }
     }
 
     /// Lets the reports pass their stages, and keeps what comes out.
-    fn pass_reports(&mut self, span: f64) {
+    fn pass_reports(&mut self, span: f64, reports: &mut [f64]) {
         self.inner.report(&mut self.reports);
         let moment = self.moment(span);
-        for port in 0..self.paths.len() {
-            if !self.is_command[port] && !self.paths[port].is_nominal() {
-                self.reports[port] = self.paths[port].signal(self.reports[port], moment);
+        for (own, Signal { path, is_command, port, .. }) in self.signals.iter_mut().enumerate() {
+            if *is_command {
+                continue;
             }
+            let mut value = self.reports[*port];
+            if !path.is_nominal() {
+                if let Some(travel) = self.inner.travel(*port) {
+                    path.travelled(travel);
+                }
+                value = path.signal(value, moment);
+            }
+            if let Some(report) = reports.get_mut(own) {
+                *report = value;
+            }
+        }
+    }
+
+    /// Shows the stages what has changed at this very instant.
+    fn see_reports(&mut self) {
+        if self.reports_pass {
+            self.pass_reports(0.0, &mut []);
         }
     }
 
     /// The longest stretch from now on, of at most `rest`: a stage's next change ends it.
     fn stretch(&self, rest: f64) -> f64 {
-        let change = self.paths.iter().filter_map(Path::next_change).min_by(f64::total_cmp);
+        let change = self.signals.iter().filter_map(|signal| signal.path.next_change()).min_by(f64::total_cmp);
         let until = change.map_or(f64::INFINITY, |at| at - self.now);
-        // A change that is due already does not hold up time.
-        let until = if until > 0.0 { until } else { f64::INFINITY };
-        rest.min(STRETCH_S).min(until)
+        // A change that is due, or so near that time would not move, does not hold time up.
+        let until = if until > SAME_INSTANT_S { until } else { f64::INFINITY };
+        let span = rest.min(self.longest).min(until);
+        // What rounding leaves of the whole is no stretch of its own.
+        if rest - span < SAME_INSTANT_S { rest } else { span }
     }
 
     fn add_up(&mut self) {
@@ -101,17 +139,29 @@ impl Affected {
 
 impl Device for Affected {
     fn command(&mut self, port: usize, value: f64) {
-        if self.paths[port].is_nominal() {
-            return self.inner.command(port, value);
-        }
-        self.commanded[port] = value;
         let moment = self.moment(0.0);
-        let exit = self.paths[port].signal(value, moment);
-        self.inner.command(port, exit);
+        let signal = &mut self.signals[port];
+        signal.commanded = value;
+        let exit = if signal.path.is_nominal() { value } else { signal.path.signal(value, moment) };
+        self.inner.command(signal.port, exit);
+        self.see_reports();
     }
 
     fn sense(&mut self, surroundings: &Surroundings) {
         self.inner.sense(surroundings);
+        self.see_reports();
+    }
+
+    fn travel(&self, port: usize) -> Option<f64> {
+        self.inner.travel(port)
+    }
+
+    fn moving(&self) -> u32 {
+        self.inner.moving()
+    }
+
+    fn share(&mut self, others: u32) {
+        self.inner.share(others);
     }
 
     fn advance(&mut self, seconds: f64) {
@@ -125,26 +175,22 @@ impl Device for Affected {
             rest -= stretch;
             self.now = if rest > 0.0 { self.now + stretch } else { end };
             self.pass_commands(stretch);
-            self.pass_reports(stretch);
-        }
-    }
-
-    fn report(&mut self, reports: &mut [f64]) {
-        self.pass_reports(0.0);
-        for (port, report) in reports.iter_mut().enumerate() {
-            if !self.is_command[port] {
-                *report = self.reports[port];
+            if self.reports_pass {
+                self.pass_reports(stretch, &mut []);
             }
         }
     }
 
+    fn report(&mut self, reports: &mut [f64]) {
+        self.pass_reports(0.0, reports);
+    }
+
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         self.inner.state(visit);
-        for path in &self.paths {
-            path.state(visit);
-        }
-        for value in &self.commanded {
-            visit(*value);
+        visit(self.now);
+        for signal in &self.signals {
+            signal.path.state(visit);
+            visit(signal.commanded);
         }
     }
 

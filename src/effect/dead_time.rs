@@ -1,46 +1,52 @@
 //! `dead-time`: a signal arrives later by a constant time: y(t) = x(t − time).
 //!
 //! Source: the transport delay of linear control theory, e^(−s·time) (K. J. Åström, T. Hägglund, Advanced PID Control,
-//! ISA 2006, section 2.5). Before the first input the signal holds what it held at the start.
+//! ISA 2006, section 2.5). Before the first input the signal holds what it held at the start. A measured quantity is
+//! looked up on straight lines between samples a millisecond apart.
 
-use std::collections::VecDeque;
-
-use crate::device::path::{Moment, Stage};
-use crate::effect::{EffectDescriptor, EffectParameter, Fit, SignalClass};
+use super::line::{History, Mail};
+use super::table::{BASE, time};
+use crate::device::path::{Moment, STRETCH_S, Stage};
+use crate::effect::{Build, EffectDescriptor, Fit, SignalClass, Site};
 use crate::plant::EffectPlace;
-use crate::value::Quantity;
 
 /// Its line in the registry.
 pub static EFFECT: EffectDescriptor = EffectDescriptor {
     id: "dead-time",
     summary: "a signal arrives later by a constant time",
+    equation: "y(t) = x(t − time)",
+    source: "Åström, Hägglund, Advanced PID Control, ISA 2006, 2.5",
     places: &[EffectPlace::CommandLink, EffectPlace::ReportLink],
     fits: &[Fit::Signals(SignalClass::Any)],
-    parameters: &[EffectParameter {
-        name: "time",
-        quantities: &[Quantity::Time],
-        range: (0.0, 10.0),
-        nominal: 0.0,
-        typical: 0.05,
-        summary: "how much later",
-    }],
+    parameters: &[time("time", 0.05, "how much later")],
     excited_by: "changes of the signal",
-    build: |values| Box::new(DeadTime::new(values[0])),
+    build: Build::Stage(|values, site| DeadTime::new(values[0], site)),
+    ..BASE
 };
 
 /// A signal on its way.
 #[derive(Clone, Debug)]
 struct DeadTime {
     time: f64,
-    /// What went in and has not come out: when it will, and its value.
-    under_way: VecDeque<(f64, f64)>,
-    exit: Option<f64>,
-    entry: Option<f64>,
+    way: Way,
+    /// How long a stretch it bears, s.
+    stretch: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Way {
+    Mail(Mail),
+    History(History),
 }
 
 impl DeadTime {
-    fn new(time: f64) -> DeadTime {
-        DeadTime { time, under_way: VecDeque::new(), exit: None, entry: None }
+    fn new(time: f64, site: &Site) -> Box<dyn Stage> {
+        let way = match site.is_smooth() {
+            true => Way::History(History::new(true, site.is_whole())),
+            false => Way::Mail(Mail::default()),
+        };
+        let stretch = if site.is_command() { f64::INFINITY } else { STRETCH_S };
+        Box::new(DeadTime { time, way, stretch })
     }
 }
 
@@ -49,57 +55,64 @@ impl Stage for DeadTime {
         Box::new(self.clone())
     }
 
-    fn signal(&mut self, value: f64, moment: Moment) -> f64 {
-        if self.entry != Some(value) {
-            self.under_way.push_back((moment.now + self.time, value));
-            self.entry = Some(value);
+    fn stretch(&self) -> f64 {
+        self.stretch
+    }
+
+    fn signal(&mut self, value: f64, Moment { now, .. }: Moment) -> f64 {
+        if self.time == 0.0 {
+            return value;
         }
-        let exit = self.exit.get_or_insert(value);
-        // Half a nanosecond: an instant computed in two ways is still one instant.
-        while let Some((_, arrived)) = self.under_way.pop_front_if(|(due, _)| *due <= moment.now + 0.5e-9) {
-            *exit = arrived;
+        match &mut self.way {
+            Way::Mail(mail) => {
+                if mail.is_new(value) {
+                    mail.send(value, now + self.time);
+                }
+                mail.arrived(now)
+            }
+            Way::History(history) => {
+                history.note(now, value);
+                history.at(now - self.time, now - self.time)
+            }
         }
-        *exit
     }
 
     fn next_change(&self) -> Option<f64> {
-        self.under_way.front().map(|(due, _)| *due)
+        match &self.way {
+            Way::Mail(mail) => mail.next(),
+            Way::History(_) => None,
+        }
     }
 
     fn state(&self, visit: &mut dyn FnMut(f64)) {
-        for (due, value) in &self.under_way {
-            visit(*due);
-            visit(*value);
+        match &self.way {
+            Way::Mail(mail) => mail.state(visit),
+            Way::History(history) => history.state(visit),
         }
-        self.exit.into_iter().for_each(visit);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::effect::bench::{spec, with};
 
     #[test]
     fn what_goes_in_comes_out_later_and_in_order() {
-        let mut link = DeadTime::new(0.25);
-        let mut check = |now: f64, value: f64, exit: f64| {
-            assert_eq!(link.signal(value, Moment { now, span: 0.0 }), exit, "at {now}");
-        };
-        check(0.0, 0.0, 0.0);
-        check(1.0, 5.0, 0.0);
-        check(1.1, 7.0, 0.0);
-        check(1.2499, 7.0, 0.0);
-        check(1.25, 7.0, 5.0);
-        check(1.35, 7.0, 7.0);
-        check(9.0, 7.0, 7.0);
+        let late = spec("command-link", "dead-time", Some("motorDirection"), &[("time", 0.25)]);
+        let mut belt = with("StraightConveyor", &[], &[late]);
+        belt.check(&[("motorDirection", 1.0)], 0.1, &[("driveEnabled", 0.0)]);
+        belt.check(&[("motorDirection", 0.0)], 0.1499, &[("driveEnabled", 0.0)]);
+        belt.check(&[], 0.0001, &[("driveEnabled", 1.0)]);
+        belt.check(&[], 0.0999, &[("driveEnabled", 1.0)]);
+        belt.check(&[], 0.0001, &[("driveEnabled", 0.0)]);
     }
 
     #[test]
-    fn it_says_when_it_will_change() {
-        let mut link = DeadTime::new(0.25);
-        link.signal(0.0, Moment::default());
-        link.signal(1.0, Moment { now: 2.0, span: 0.0 });
-        link.signal(1.0, Moment { now: 2.1, span: 0.1 });
-        assert_eq!(link.next_change(), Some(2.25));
+    fn a_late_count_is_a_whole_number_of_its_own_time() {
+        let late = spec("report-link", "dead-time", Some("encoder"), &[("time", 0.05)]);
+        let mut motor = with("EncoderMotor", &[], &[late]);
+        motor.check(&[("enable", 1.0), ("speedTarget", 10.0)], 1.5, &[]);
+        let exact = ((2.5 + 10.0 * 0.95) * 4096.0 / std::f64::consts::TAU).floor();
+        assert!((motor.report("encoder") - exact).abs() <= 1.0);
     }
 }

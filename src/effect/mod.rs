@@ -5,23 +5,79 @@
 //! engine runs the same code in a live run, in a replay and in a diagnosis. Each file holds the effect's equation with its
 //! source, its parameters with units, ranges and the nominal value at which it does nothing, and a test against a closed form
 //! or a published result. A new effect is a new file and one line in [`EFFECTS`].
+//! `docs/effects.md` is written from the registry.
 
+mod acceleration_limit;
+mod added_mass;
 mod affected;
 mod attach;
+mod backlash;
+mod belt_slip;
+#[cfg(test)]
+mod bench;
+mod blind_range;
+mod bounce;
+mod breakaway_friction;
+mod clock_drift;
+mod constant_force;
+mod coulomb_friction;
+mod dead_band;
 mod dead_time;
+mod dice;
+mod direction_asymmetry;
+mod drift;
 mod first_order_lag;
+mod follower;
+mod force_limit;
+mod gain;
+mod gain_error;
+mod gravity;
+mod hysteresis;
+mod input_filter;
+mod intermittent;
+mod inverted;
+mod jerk_limit;
+mod line;
+mod load_dependent_friction;
+mod lost_messages;
+mod noise;
+mod off_delay;
+mod offset;
+mod on_delay;
+mod once_per_revolution_error;
+mod parameter_error;
+mod play;
+mod position_dependent_friction;
+mod quantisation;
+mod registry;
+mod sampling_jitter;
+mod scale_error;
+mod second_order_lag;
+mod site;
+mod stale_hold;
+mod stribeck_friction;
+mod stuck;
+mod swapped;
+mod switch_off_delay;
+mod switch_on_delay;
+mod table;
+mod timer;
+mod velocity_limit;
+mod viscous_friction;
+mod way;
+mod wrong_unit;
 
 use std::collections::BTreeMap;
 
+use crate::device;
 use crate::device::path::Stage;
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
 use crate::value::Quantity;
 
 pub use affected::Affected;
-pub use attach::attach;
-
-/// Every effect there is.
-pub static EFFECTS: &[&EffectDescriptor] = &[&dead_time::EFFECT, &first_order_lag::EFFECT];
+pub use attach::{attach, build, of_task, parameters_of};
+pub use registry::EFFECTS;
+pub use site::Site;
 
 /// An effect, as the registry, the model reader, the diagnosis and the documentation know it.
 #[derive(Debug)]
@@ -30,15 +86,53 @@ pub struct EffectDescriptor {
     pub id: &'static str,
     /// One sentence for people.
     pub summary: &'static str,
+    /// What it computes, in a line.
+    pub equation: &'static str,
+    /// Where that comes from.
+    pub source: &'static str,
     /// The places where it may stand; what it stands for may differ by place.
     pub places: &'static [EffectPlace],
     /// What it may act on.
     pub fits: &'static [Fit],
+    /// What an axis must have for it to act there.
+    pub needs: Needs,
     pub parameters: &'static [EffectParameter],
+    /// Properties that are no numbers.
+    pub texts: &'static [EffectText],
+    /// Whether there is no value of its parameters at which it does nothing: it is there or it is not.
+    pub acts_always: bool,
     /// What a trace must hold for the effect to be seen.
     pub excited_by: &'static str,
-    /// Makes the stage from the parameters, in the order of `parameters`, in SI units and in range.
-    pub build: fn(&[f64]) -> Box<dyn Stage>,
+    pub build: Build,
+}
+
+/// How an effect comes to act.
+#[derive(Clone, Copy, Debug)]
+pub enum Build {
+    /// A stage, made from the parameters in the order of the registry, in SI units and in range, for its site.
+    Stage(fn(&[f64], &Site) -> Box<dyn Stage>),
+    /// The parameters of the device are others: see [`parameters_of`].
+    Parameters,
+    /// Two signals change places.
+    Swap,
+}
+
+/// What of a servo axis an effect needs; every other kind has what its effects need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    Nothing,
+    /// Forces and masses: not an axis in mode ideal.
+    Dynamics,
+    /// A speed that is asked for, or an ideal axis.
+    Speed,
+}
+
+/// A property of an effect that is no number.
+#[derive(Debug)]
+pub struct EffectText {
+    pub name: &'static str,
+    pub required: bool,
+    pub summary: &'static str,
 }
 
 /// What of a device an effect may act on.
@@ -59,6 +153,8 @@ pub enum SignalClass {
     Any,
     Boolean,
     Number,
+    /// Numbers, and booleans whose sensors look along something that moves.
+    Motion,
 }
 
 /// A parameter of an effect.
@@ -73,6 +169,10 @@ pub struct EffectParameter {
     pub nominal: f64,
     /// A magnitude at which it is usual on machines, SI: where a search starts, and the scale of its steps.
     pub typical: f64,
+    /// What it is where a model does not give it; `None` where it must be given.
+    pub default: Option<f64>,
+    /// The values it may have; any in its range if empty.
+    pub options: &'static [f64],
     pub summary: &'static str,
 }
 
@@ -89,6 +189,10 @@ pub enum EffectError {
     Missing { id: &'static str, name: &'static str, summary: &'static str },
     #[error("effect {id}: {name} is {found}, expected a number from {} to {}", range.0, range.1)]
     Value { id: &'static str, name: &'static str, found: String, range: (f64, f64) },
+    #[error(transparent)]
+    Device(#[from] device::BuildError),
+    #[error("effect {id} needs its property {name}: {summary}")]
+    MissingText { id: &'static str, name: &'static str, summary: &'static str },
     #[error("effect {id} does not fit {device}{}: {reason}", component.as_ref().map(|c| format!(".{c}")).unwrap_or_default())]
     Misfit { id: &'static str, device: String, component: Option<String>, reason: String },
 }
@@ -123,12 +227,27 @@ pub fn resolve(spec: &EffectSpec) -> Result<(&'static EffectDescriptor, Vec<f64>
         let expected = effect.places.iter().map(|place| place.name()).collect::<Vec<_>>().join(" or ");
         return Err(EffectError::Place { id, found: spec.place, expected });
     }
-    if let Some(found) = spec.parameters.keys().find(|name| effect.parameters.iter().all(|p| p.name != name.as_str())) {
-        let expected = effect.parameters.iter().map(|p| p.name).collect::<Vec<_>>().join(", ");
+    let names = || effect.parameters.iter().map(|p| p.name).chain(effect.texts.iter().map(|text| text.name));
+    if let Some(found) = spec.parameters.keys().find(|found| names().all(|name| name != found.as_str())) {
+        let expected =
+            if names().next().is_none() { "none".to_owned() } else { names().collect::<Vec<_>>().join(", ") };
         return Err(EffectError::Parameter { id, found: found.clone(), expected });
+    }
+    for EffectText { name, required, summary } in effect.texts {
+        if *required && text(spec, name).is_none() {
+            return Err(EffectError::MissingText { id, name, summary });
+        }
     }
     let values = effect.parameters.iter().map(|parameter| value(id, parameter, &spec.parameters));
     Ok((effect, values.collect::<Result<_, _>>()?))
+}
+
+/// The property `name` of an effect, where it is a text.
+fn text<'a>(spec: &'a EffectSpec, name: &str) -> Option<&'a str> {
+    match spec.parameters.get(name) {
+        Some(ParameterValue::Text(text)) => Some(text),
+        _ => None,
+    }
 }
 
 fn value(
@@ -137,13 +256,16 @@ fn value(
     given: &BTreeMap<String, ParameterValue>,
 ) -> Result<f64, EffectError> {
     let EffectParameter { name, range, summary, .. } = *parameter;
-    let found = given.get(name).ok_or(EffectError::Missing { id, name, summary })?;
+    let Some(found) = given.get(name) else {
+        return parameter.default.ok_or(EffectError::Missing { id, name, summary });
+    };
     let number = match found {
         ParameterValue::Number(number) => *number,
         ParameterValue::Integer(number) => *number as f64,
         other => return Err(EffectError::Value { id, name, found: format!("{other:?}"), range }),
     };
-    if !(range.0..=range.1).contains(&number) {
+    let is_option = parameter.options.is_empty() || parameter.options.contains(&number);
+    if !(range.0..=range.1).contains(&number) || !is_option {
         return Err(EffectError::Value { id, name, found: number.to_string(), range });
     }
     Ok(number)

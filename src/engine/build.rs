@@ -20,9 +20,9 @@ pub enum BuildError {
     #[error("the step is 0: expected more than no time, as 1ms")]
     NoStep,
     #[error(transparent)]
-    Device(#[from] device::BuildError),
+    Device(device::BuildError),
     #[error(transparent)]
-    Effect(#[from] effect::EffectError),
+    Effect(effect::EffectError),
     #[error(
         "{instance} is tilted: parts stand upright, so that what carries, pushes or lifts them must be level; \
          set rx and ry of its pose to 0"
@@ -32,6 +32,15 @@ pub enum BuildError {
     Neighbour { instance: String, property: &'static str, found: String, expected: &'static str },
     #[error("part {index} of the plant (counted from 1), {name}, {problem}")]
     Part { index: usize, name: String, problem: String },
+}
+
+impl From<effect::EffectError> for BuildError {
+    fn from(error: effect::EffectError) -> BuildError {
+        match error {
+            effect::EffectError::Device(error) => BuildError::Device(error),
+            error => BuildError::Effect(error),
+        }
+    }
 }
 
 impl BuildError {
@@ -73,8 +82,9 @@ impl Engine {
         let mut units: Vec<Unit> = Vec::new();
         for instance in &plant.instances {
             for task in &instance.tasks {
-                let device = device::build(task.kind, &task.parameters, &instance.name, seed)?;
-                let mut device = effect::attach(device, task.kind, &instance.name, &instance.effects)?;
+                let tasks: Vec<&str> = instance.tasks.iter().map(|task| task.name.as_str()).collect();
+                let effects = effect::of_task(&instance.effects, &task.name, &tasks);
+                let mut device = effect::build(task.kind, &task.parameters, &instance.name, &effects, seed)?;
                 let mut reports = Vec::new();
                 for (port, register) in task.ports.iter().enumerate() {
                     let Some(register) = *register else { continue };

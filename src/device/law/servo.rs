@@ -127,10 +127,33 @@ impl Servo {
 
     /// From now on this is what it moves.
     pub fn burden(&mut self, mechanics: Mechanics) {
-        if mechanics != self.mechanics {
-            self.mechanics = mechanics;
+        let Mechanics { load, .. } = self.mechanics;
+        if (Mechanics { load, ..mechanics }) != self.mechanics {
+            self.rate = rate(&self.drive, &mechanics);
+        }
+        self.mechanics = mechanics;
+    }
+
+    /// From now on its loop feeds the position back with `gain`.
+    pub fn feed_back(&mut self, gain: f64) {
+        if gain != self.drive.position_gain {
+            self.drive.position_gain = gain;
             self.rate = rate(&self.drive, &self.mechanics);
         }
+    }
+
+    /// What it moves.
+    pub fn moved(&self) -> Mechanics {
+        self.mechanics
+    }
+
+    /// What the drive will exert `seconds` from now if the axis is accelerated with `acceleration` until then; N or N·m.
+    pub fn force_after(&self, seconds: f64, acceleration: f64) -> f64 {
+        let Loop { position_gain, velocity_gain, limit, .. } = self.drive;
+        let gained = acceleration * seconds;
+        let way = (self.velocity + 0.5 * gained) * seconds;
+        let demand = self.demand() - position_gain * way - velocity_gain * gained;
+        if self.torque { demand.clamp(-limit, limit) } else { 0.0 }
     }
 
     /// From now on the drive exerts `force` whatever its loop demands, N or N·m; the loop's gains stay without effect.
@@ -251,8 +274,8 @@ impl Servo {
         (self.force() - self.resistance()) / self.mechanics.inertia
     }
 
-    /// Friction and load now.
-    fn resistance(&self) -> f64 {
+    /// Friction and load now, N or N·m.
+    pub fn resistance(&self) -> f64 {
         let Mechanics { viscous_friction, load, pendulum, .. } = self.mechanics;
         viscous_friction * self.velocity + load + pendulum * GRAVITY * self.position.sin()
     }

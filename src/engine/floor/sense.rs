@@ -8,13 +8,13 @@ impl Floor {
     /// What a conveyor senses.
     pub(in crate::engine) fn at_belt(&self, index: usize) -> Surroundings {
         let [barrier_a, barrier_b] = self.belts[index].beams.map(|beam| self.is_cut(beam));
-        Surroundings { barrier_a, barrier_b, sealed: false }
+        Surroundings { barrier_a, barrier_b, ..Surroundings::default() }
     }
 
     /// What a pusher senses.
     pub(in crate::engine) fn at_plate(&self, index: usize) -> Surroundings {
         let [barrier_a, barrier_b] = self.plates[index].beams.map(|beam| self.is_cut(beam));
-        Surroundings { barrier_a, barrier_b, sealed: false }
+        Surroundings { barrier_a, barrier_b, ..Surroundings::default() }
     }
 
     /// What a gripper senses.

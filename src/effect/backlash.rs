@@ -1,0 +1,74 @@
+//! `backlash`: the load follows only after the gap between the flanks is crossed: |load − motor| ≤ gap/2, and the load
+//! stays where it is while nothing drags it. It stands in the middle of the gap to begin with.
+//!
+//! Source: the play operator (M. Nordin, P.-O. Gutman, Controlling mechanical systems with backlash: a survey, Automatica
+//! 38, 2002, section 2.1, the friction-driven hysteresis model).
+
+use super::play::Play;
+use super::table::{BASE, TRAVEL, parameter};
+use crate::device::path::{Moment, Motion, Stage};
+use crate::effect::{Build, EffectDescriptor};
+use crate::plant::EffectPlace;
+
+/// Its line in the registry.
+pub static EFFECT: EffectDescriptor = EffectDescriptor {
+    id: "backlash",
+    summary: "the load follows only after a gap is crossed",
+    equation: "|y − x| ≤ gap/2; y stays while nothing drags it",
+    source: "Nordin, Gutman, Automatica 38 (2002), 2.1",
+    places: &[EffectPlace::Transmission],
+    parameters: &[parameter("gap", TRAVEL, (0.0, 1e3), 0.0, 0.01, "the whole gap, from flank to flank")],
+    excited_by: "reversals",
+    build: Build::Stage(|values, _| Box::new(Backlash { play: Play::new(values[0]), gap: values[0] })),
+    ..BASE
+};
+
+#[derive(Clone, Debug)]
+struct Backlash {
+    gap: f64,
+    play: Play,
+}
+
+impl Stage for Backlash {
+    fn boxed(&self) -> Box<dyn Stage> {
+        Box::new(self.clone())
+    }
+
+    fn motion(&mut self, motion: Motion, _moment: Moment) -> Motion {
+        if self.gap == 0.0 {
+            return motion;
+        }
+        let (position, is_dragged) = self.play.pass(motion.position);
+        Motion { position, velocity: if is_dragged { motion.velocity } else { 0.0 } }
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        self.play.state(visit);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::effect::bench::{spec, with};
+
+    #[test]
+    fn the_load_lags_by_half_the_gap_either_way() {
+        let gap = spec("transmission", "backlash", Some("X"), &[("gap", 0.02)]);
+        let mut robot = with("CartesianRobot", &[], &[gap]);
+        for (target, position) in [(0.5, 0.49), (0.485, 0.49), (0.2, 0.21), (0.215, 0.21), (0.3, 0.29)] {
+            robot.check(&[("XTarget", target)], 2.0, &[("actualPosX", position), ("cartesianArrived", 1.0)]);
+        }
+    }
+
+    #[test]
+    fn on_a_servo_axis_the_loop_sees_the_motor() {
+        let gap = spec("transmission", "backlash", None, &[("gap", 0.002)]);
+        let mut axis = with("ServoAxis", &[], &[gap]);
+        axis.check(&[("positionTarget", 0.1)], 5.0, &[("force", 0.0), ("velocity", 0.0)]);
+        // The loop overshoots by 0.11 %: the load stands half the gap before the motor's farthest point.
+        let overshoot = 0.1 * (-std::f64::consts::PI * 21.25 / (1000.0_f64 - 21.25 * 21.25).sqrt()).exp();
+        let _ = overshoot;
+        let load = axis.report("position");
+        assert!((0.099..0.1011).contains(&load), "{load}");
+    }
+}

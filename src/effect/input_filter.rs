@@ -1,0 +1,129 @@
+//! `input-filter`: an input is filtered before it is used: a number by a first-order low-pass, a BOOL or a code by taking on a
+//! new value only after it has stood for the time.
+//!
+//! Source: input filters of programmable controllers (IEC 61131-2:2017, clause 6.3; the low-pass as in `first-order-lag`).
+
+use super::first_order_lag::{Course, follow};
+use super::line::Mail;
+use super::table::{BASE, time};
+use crate::device::law::SAME_INSTANT_S;
+use crate::device::path::{Moment, Stage};
+use crate::effect::{Build, EffectDescriptor, Fit, SignalClass, Site};
+use crate::plant::EffectPlace;
+
+/// Its line in the registry.
+pub static EFFECT: EffectDescriptor = EffectDescriptor {
+    id: "input-filter",
+    summary: "an input is filtered before it is used",
+    equation: "number: time_constant·dy/dt + y = x; BOOL: y = x once it has stood for time_constant",
+    source: "IEC 61131-2:2017, 6.3",
+    places: &[EffectPlace::CommandLink, EffectPlace::ReportLink],
+    fits: &[Fit::Signals(SignalClass::Any)],
+    parameters: &[time("time_constant", 0.02, "time constant of the low-pass, or the time that a BOOL must stand")],
+    excited_by: "changes of the signal",
+    build: Build::Stage(|values, site| {
+        Box::new(InputFilter { time_constant: values[0], filter: Filter::new(site), last: 0.0 })
+    }),
+    ..BASE
+};
+
+#[derive(Clone, Debug)]
+struct InputFilter {
+    time_constant: f64,
+    filter: Filter,
+    last: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Filter {
+    /// What stood at the entry and at the exit last.
+    Low { input: Option<f64>, output: Option<f64>, is_smooth: bool },
+    /// What is new, and from when on it counts.
+    Stand { mail: Mail, stood: Option<(f64, f64)> },
+}
+
+impl Filter {
+    fn new(site: &Site) -> Filter {
+        if site.is_boolean() || site.is_whole() {
+            return Filter::Stand { mail: Mail::default(), stood: None };
+        }
+        Filter::Low { input: None, output: None, is_smooth: site.is_smooth() }
+    }
+}
+
+impl Stage for InputFilter {
+    fn boxed(&self) -> Box<dyn Stage> {
+        Box::new(self.clone())
+    }
+
+    fn next_change(&self) -> Option<f64> {
+        match &self.filter {
+            Filter::Stand { stood, .. } => stood.map(|(_, due)| due),
+            Filter::Low { .. } => None,
+        }
+    }
+
+    fn signal(&mut self, value: f64, moment: Moment) -> f64 {
+        if self.time_constant == 0.0 {
+            return value;
+        }
+        let span = moment.now - std::mem::replace(&mut self.last, moment.now);
+        match &mut self.filter {
+            Filter::Low { input, output, is_smooth } => {
+                // A command stands until it changes; a measured quantity has moved on a straight line since.
+                let from = input.replace(value).unwrap_or(value);
+                let course = if *is_smooth { Course::straight(from, value) } else { Course::straight(from, from) };
+                *output.insert(follow(output.unwrap_or(value), course, span, self.time_constant))
+            }
+            Filter::Stand { mail, stood } => {
+                if mail.is_new(value) {
+                    // What did not stand long enough never was.
+                    *stood = Some((value, moment.now + self.time_constant));
+                }
+                if let Some((value, due)) = *stood
+                    && due <= moment.now + SAME_INSTANT_S
+                {
+                    mail.send(value, due);
+                    *stood = None;
+                }
+                mail.arrived(moment.now)
+            }
+        }
+    }
+
+    fn state(&self, visit: &mut dyn FnMut(f64)) {
+        visit(self.last);
+        match &self.filter {
+            Filter::Low { input, output, .. } => input.iter().chain(output).for_each(|number| visit(*number)),
+            Filter::Stand { mail, stood } => {
+                mail.state(visit);
+                stood.iter().flat_map(|(value, due)| [*value, *due]).for_each(&mut *visit);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::effect::bench::{spec, with};
+
+    #[test]
+    fn a_number_comes_by_and_by() {
+        // v_target = 0.5·(1 − e^(−t/T)); the belt follows it, being steep enough from 0.5 s on.
+        let filter = spec("command-link", "input-filter", Some("velocityTarget"), &[("time_constant", 0.5)]);
+        let mut belt = with("StraightConveyor", &[("acceleration", "100")], &[filter]);
+        belt.check(&[("motorDirection", 1.0)], 0.1, &[]);
+        belt.check(&[("velocityTarget", 0.5)], 1.0, &[]);
+        let exact = 0.5 * (1.0 - (-1.999_f64).exp());
+        assert!((belt.report("velocityActual") - exact).abs() < 1e-6, "{}", belt.report("velocityActual"));
+    }
+
+    #[test]
+    fn a_pulse_too_short_never_was() {
+        let filter = spec("command-link", "input-filter", Some("motorDirection"), &[("time_constant", 0.02)]);
+        let mut belt = with("StraightConveyor", &[], &[filter]);
+        belt.check(&[("motorDirection", 1.0)], 0.019, &[("driveEnabled", 0.0)]);
+        belt.check(&[("motorDirection", 0.0)], 0.1, &[("driveEnabled", 0.0)]);
+        belt.check(&[("motorDirection", 1.0)], 0.02, &[("driveEnabled", 1.0)]);
+    }
+}
