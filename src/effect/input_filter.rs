@@ -109,12 +109,12 @@ mod tests {
 
     #[test]
     fn a_number_comes_by_and_by() {
-        // v_target = 0.5·(1 − e^(−t/T)); the belt follows it, being steep enough from 0.5 s on.
+        // v_target = 0.5·(1 − e^(−t/T)), which the belt follows a stretch later.
         let filter = spec("command-link", "input-filter", Some("velocityTarget"), &[("time_constant", 0.5)]);
         let mut belt = with("StraightConveyor", &[("acceleration", "100")], &[filter]);
         belt.check(&[("motorDirection", 1.0)], 0.1, &[]);
         belt.check(&[("velocityTarget", 0.5)], 1.0, &[]);
-        let exact = 0.5 * (1.0 - (-1.999_f64).exp());
+        let exact = 0.5 * (1.0 - (-1.998_f64).exp());
         assert!((belt.report("velocityActual") - exact).abs() < 1e-6, "{}", belt.report("velocityActual"));
     }
 
