@@ -81,8 +81,6 @@ pub struct Traffic {
 pub enum Event {
     /// What the session says.
     Session(ClientEvent),
-    /// What the transport says: why a connection ended or could not be made.
-    Connection(String),
     /// Values that arrived in a message with good ones could not be used; the automation has been told.
     ValuesRefused(Vec<Fault>),
     /// The automation did not read for so long that this many changes could not be kept.
@@ -111,6 +109,8 @@ struct Session {
     passed: VecDeque<Passed>,
     /// How much of it is to be moved into the memory.
     arrived: usize,
+    /// Why the connection ended or could not be made, in the transport's words.
+    why: Option<String>,
     /// Whether `connect` was called.
     wanted: bool,
     ended: bool,
@@ -165,9 +165,17 @@ impl<T: Transport> Connector<T> {
             Received::InvalidUtf8 => self.handle(now, Input::InvalidUtf8),
             Received::TooLong { limit } => self.handle(now, Input::TooLong { limit }),
             Received::Closed(why) => {
-                self.events.push_back(Event::Connection(why));
+                self.set_why(Some(why));
                 self.handle(now, Input::Closed);
+                // Of this connection alone, and of no later one.
+                self.set_why(None);
             }
+        }
+    }
+
+    fn set_why(&mut self, why: Option<String>) {
+        if let Some(session) = &mut self.session {
+            session.why = why;
         }
     }
 
@@ -273,30 +281,35 @@ impl<T: Transport> Connector<T> {
 impl Session {
     fn take<T: Transport>(
         &mut self,
-        event: ClientEvent,
+        mut event: ClientEvent,
         transport: &mut T,
         events: &mut VecDeque<Event>,
         now: Instant,
     ) {
-        match event {
+        match &mut event {
             ClientEvent::Dial { .. } => transport.dial(now),
-            ClientEvent::Values(mut staged) => {
+            ClientEvent::Values(staged) => {
                 if !staged.faults.is_empty() {
                     events.push_back(Event::ValuesRefused(std::mem::take(&mut staged.faults)));
                 }
-                self.passed.push_back(Passed::Values(staged));
                 self.arrived += 1;
-                return;
             }
             ClientEvent::Established { .. } => self.outbox.start(),
-            ClientEvent::Lost { .. } => self.outbox.stop(),
+            ClientEvent::Lost { reason, .. } => {
+                // The transport knows better than the session why.
+                *reason = self.why.take().unwrap_or_else(|| std::mem::take(reason));
+                self.outbox.stop();
+            }
             ClientEvent::Ended(_) => {
                 self.ended = true;
                 self.outbox.stop();
             }
             _ => {}
         }
-        events.push_back(Event::Session(event));
+        match event {
+            ClientEvent::Values(staged) => self.passed.push_back(Passed::Values(staged)),
+            event => events.push_back(Event::Session(event)),
+        }
     }
 }
 
@@ -316,6 +329,7 @@ impl<T: Transport> Adapter for Connector<T> {
             outbox: Outbox::default(),
             passed: VecDeque::new(),
             arrived: 0,
+            why: None,
             wanted: false,
             ended: false,
         });

@@ -202,7 +202,8 @@ fn a_lost_session_is_made_again_and_begins_with_all_reports() {
     bench.connector.transport().peer().outputs.push(FromPeer::Closed("gone".to_owned()));
     bench.turn(1);
     assert!(!bench.connector.is_connected());
-    assert!(bench.events().contains(&Event::Connection("gone".to_owned())));
+    let lost = |event: &Event| matches!(event, Event::Session(ClientEvent::Lost { reason, .. }) if reason == "gone");
+    assert!(bench.events().iter().any(lost), "in the transport's words");
     bench.publish(true);
     bench.turn(1);
     let due = bench.connector.deadline().expect("a pause before the next try");

@@ -275,7 +275,7 @@ fn farewell(frame: Option<&CloseFrame>) -> String {
 fn explain(error: &Error) -> String {
     match error {
         Error::Io(error) => match error.kind() {
-            io::ErrorKind::ConnectionRefused => "nobody listens there (connection refused)".to_owned(),
+            io::ErrorKind::ConnectionRefused => "nobody listens there".to_owned(),
             io::ErrorKind::ConnectionReset | io::ErrorKind::BrokenPipe => "the connection broke off".to_owned(),
             _ => error.to_string(),
         },

@@ -150,7 +150,7 @@ impl Status {
     fn cycle(&self, panel: &mut Panel<'_>) {
         let Facts { step, rates, .. } = &self.facts;
         panel.head("cycle", &format!("step {}", format_duration(*step)));
-        panel.line(&[("levels ", &format_duration(rates.high)), ("/ ", &format_duration(rates.low))]);
+        panel.line(&[("levels ", &format!("{} / {}", format_duration(rates.high), format_duration(rates.low)))]);
         let step_us = &self.simulation.step_us;
         panel.line(&[("computing ", &micros(step_us.p50)), ("p99 ", &micros(step_us.p99))]);
         let (overruns, late) = (self.simulation.overruns, self.simulation.late_steps);

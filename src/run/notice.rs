@@ -31,7 +31,6 @@ pub enum Gravity {
 pub(super) fn notice(event: &Event, now: Instant) -> Option<Notice> {
     let (gravity, text) = match event {
         Event::Session(event) => session(event, now)?,
-        Event::Connection(why) => (Gravity::Warning, why.clone()),
         Event::ValuesRefused(faults) => (Gravity::Warning, format!("refused values: {}", listed(faults))),
         Event::ReportsLost { changes } => (
             Gravity::Warning,
