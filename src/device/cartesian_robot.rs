@@ -91,7 +91,8 @@ pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
 impl CartesianRobot {
     /// Every axis within its tolerance of the latest target, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
     fn arrived(&mut self) -> bool {
-        self.axes.iter_mut().fold(true, |all, axis| axis.arrived() && all)
+        // Every axis is asked, whatever the others say: an answer may move what stands in an axis's path.
+        self.axes.each_mut().map(|axis| axis.arrived()).iter().all(|arrived| *arrived)
     }
 }
 

@@ -20,7 +20,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     fits: &[Fit::Signals(SignalClass::Any)],
     parameters: &[time("time", 0.05, "how much later")],
     excited_by: "changes of the signal",
-    build: Build::Stage(|values, site| DeadTime::new(values[0], site)),
+    build: Build::Stage(|values, site| DeadTime::stage(values[0], site)),
     ..BASE
 };
 
@@ -40,7 +40,7 @@ enum Way {
 }
 
 impl DeadTime {
-    fn new(time: f64, site: &Site) -> Box<dyn Stage> {
+    fn stage(time: f64, site: &Site) -> Box<dyn Stage> {
         let way = match site.is_smooth() {
             true => Way::History(History::new(true, site.is_whole())),
             false => Way::Mail(Mail::default()),

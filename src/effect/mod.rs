@@ -27,7 +27,6 @@ mod dice;
 mod direction_asymmetry;
 mod drift;
 mod first_order_lag;
-mod follower;
 mod force_limit;
 mod gain;
 mod gain_error;

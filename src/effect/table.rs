@@ -9,25 +9,16 @@ pub(super) const SPEED: &[Quantity] = &[Quantity::Velocity, Quantity::AngularVel
 pub(super) const ACCELERATION: &[Quantity] = &[Quantity::Acceleration, Quantity::AngularAcceleration];
 pub(super) const EFFORT: &[Quantity] = &[Quantity::Force, Quantity::Torque];
 pub(super) const DAMPING: &[Quantity] = &[Quantity::LinearDamping, Quantity::AngularDamping];
-pub(super) const STIFFNESS: &[Quantity] = &[Quantity::LinearStiffness, Quantity::AngularStiffness];
 pub(super) const INERTIA: &[Quantity] = &[Quantity::Mass, Quantity::Inertia];
 /// Quantities of every device.
-pub(super) const LENGTH: &[Quantity] = &[Quantity::Length];
-pub(super) const MASS: &[Quantity] = &[Quantity::Mass];
 pub(super) const TIME: &[Quantity] = &[Quantity::Time];
-pub(super) const RATE: &[Quantity] = &[Quantity::Rate];
 pub(super) const FREQUENCY: &[Quantity] = &[Quantity::AngularVelocity];
 pub(super) const ANGLE: &[Quantity] = &[Quantity::Angle];
 /// A ratio, or the unit of the signal that the effect stands at.
 pub(super) const ONE: &[Quantity] = &[Quantity::One];
 
 /// Kinds of devices, by the last word of their names.
-pub(super) const CONVEYORS: &[&str] = &["StraightConveyor", "ConveyorCurve"];
-/// Those whose speed follows a ramp.
-pub(super) const RAMPED: &[&str] = &["StraightConveyor", "ConveyorCurve", "EncoderMotor"];
 pub(super) const SERVO: &[&str] = &["ServoAxis"];
-pub(super) const PUSHER: &[&str] = &["Pusher"];
-pub(super) const ROBOT: &[&str] = &["CartesianRobot"];
 /// Every kind with a drive.
 pub(super) const DRIVES: &[&str] =
     &["StraightConveyor", "ConveyorCurve", "Pusher", "CartesianRobot", "ServoAxis", "EncoderMotor"];

@@ -17,7 +17,6 @@ pub(super) struct Timer {
 pub(super) enum Late {
     On,
     Off,
-    Both,
 }
 
 impl Timer {
@@ -36,7 +35,6 @@ impl Timer {
         let waits = match self.late {
             Late::On => input,
             Late::Off => !input,
-            Late::Both => true,
         };
         let due = if waits { *self.due.get_or_insert(now + self.time) } else { now };
         if due <= now + SAME_INSTANT_S {
@@ -81,7 +79,6 @@ mod tests {
     fn it_follows_late_one_way_and_at_once_the_other() {
         check(Late::On, &[(100, true), (300, false)], &[(150, true), (300, false)]);
         check(Late::Off, &[(100, true), (300, false)], &[(100, true), (350, false)]);
-        check(Late::Both, &[(100, true), (300, false)], &[(150, true), (350, false)]);
     }
 
     #[test]
