@@ -126,7 +126,7 @@ impl Automation {
     /// An automation that controls the plant of `map` by `control`.
     pub fn new(map: Arc<SignalMap>, mut control: Control) -> Result<Automation, StartError> {
         let program = control.program(&map)?;
-        let round_trip = RoundTrip::new(&map);
+        let round_trip = RoundTrip::new(map.clone());
         let statistics = Statistics {
             sessions: 0,
             sessions_ever: 0,
