@@ -5,7 +5,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::arguments::{CheckArguments, SignalsMapArguments};
+use super::report::extent;
 use super::run::connecting;
+use super::words::{self, counted};
 use super::{Answer, Failure};
 use crate::plant::Plant;
 use crate::prototype::source::Source;
@@ -32,6 +34,8 @@ struct Checked<'a> {
     /// What the server calls itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     server_name: Option<String>,
+    /// What is no mistake and may yet not be meant, each in a sentence.
+    remarks: Vec<String>,
     /// Each in a sentence; none where all fits.
     mismatches: Vec<String>,
 }
@@ -51,12 +55,13 @@ pub fn check(arguments: &CheckArguments) -> Result<Answer, Failure> {
         signals_map: plant.adapter.signals_map.clone(),
         server: None,
         server_name: None,
+        remarks: plant.remarks(),
         mismatches: Vec::new(),
     };
     checked.compare_map(&plant)?;
     if options.connect.is_some() {
         let asked = run::ask(&options, &plant)?;
-        asked.notices.iter().for_each(|notice| eprintln!("warning: {notice}"));
+        asked.notices.iter().for_each(|notice| words::tell(format_args!("warning: {notice}")));
         let interface = asked
             .answer
             .map_err(|why| Failure(format!("error: failed to ask {} for its interface: {why}", asked.server)))?;
@@ -65,9 +70,9 @@ pub fn check(arguments: &CheckArguments) -> Result<Answer, Failure> {
         checked.mismatches.extend(mismatches(&plant.signal_map, &interface).iter().map(ToString::to_string));
     }
     if arguments.json {
-        println!("{}", serde_json::to_string(&checked)?);
+        words::answer_line(serde_json::to_string(&checked)?)?;
     } else {
-        print!("{}", checked.text());
+        words::answer(checked.text())?;
     }
     Ok(if checked.mismatches.is_empty() { Answer::Yes } else { Answer::No })
 }
@@ -92,20 +97,19 @@ impl Checked<'_> {
     }
 
     fn text(&self) -> String {
-        let mut out = format!(
-            "{}: {} instances, {} signals, {} prototypes\n",
-            self.model, self.instances, self.signals, self.prototypes
-        );
+        let mut out = format!("{}: {}\n", self.model, extent(self.instances, self.signals, self.prototypes));
         if let Some(path) = &self.signals_map {
             out.push_str(&format!("signals map {path}: compared\n"));
         }
         if let (Some(server), Some(name)) = (&self.server, &self.server_name) {
             out.push_str(&format!("{name:?} at {server}: compared\n"));
         }
+        for remark in &self.remarks {
+            out.push_str(&format!("note: {remark}\n"));
+        }
         match self.mismatches.len() {
             0 => out.push_str("all fits\n"),
-            1 => out.push_str("1 mismatch:\n"),
-            more => out.push_str(&format!("{more} mismatches:\n")),
+            some => out.push_str(&format!("{}:\n", counted(some, "mismatch", "mismatches"))),
         }
         for mismatch in &self.mismatches {
             out.push_str(&format!("  {mismatch}\n"));
@@ -129,7 +133,7 @@ pub fn signals_map(arguments: &SignalsMapArguments) -> Result<Answer, Failure> {
         return Ok(Answer::Yes);
     }
     let Some(path) = &arguments.check else {
-        print!("{text}");
+        words::answer(text)?;
         return Ok(Answer::Yes);
     };
     let path = path.to_string_lossy();
@@ -137,10 +141,10 @@ pub fn signals_map(arguments: &SignalsMapArguments) -> Result<Answer, Failure> {
     let found = xml::read(&path, &found).map_err(crate::plant::ModelError::Faulty)?;
     let differences = xml::differences(&plant.signal_map, &found);
     if differences.is_empty() {
-        println!("{path} is the signals map of {}", arguments.model);
+        words::answer_line(format_args!("{path} is the signals map of {}", arguments.model))?;
         return Ok(Answer::Yes);
     }
-    println!("{path} is not the signals map of {}:", arguments.model);
-    differences.iter().for_each(|difference| println!("  {difference}"));
+    let listed: Vec<String> = differences.iter().map(|difference| format!("  {difference}\n")).collect();
+    words::answer(format_args!("{path} is not the signals map of {}:\n{}", arguments.model, listed.concat()))?;
     Ok(Answer::No)
 }

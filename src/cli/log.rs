@@ -10,6 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use tracing_subscriber::EnvFilter;
 use tracing_subscriber::fmt::MakeWriter;
 
+use super::words;
+
 /// The variable that chooses what is logged.
 const VARIABLE: &str = "KINETWIN_LOG";
 
@@ -51,7 +53,7 @@ impl Log {
     pub fn to_standard_error(&self) {
         let lines = self.take();
         *self.place() = Place::StandardError;
-        lines.iter().for_each(|line| eprintln!("{line}"));
+        lines.iter().for_each(words::tell);
     }
 
     /// The lines that wait for the screen.

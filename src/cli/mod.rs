@@ -14,6 +14,7 @@ mod run;
 mod signals;
 mod status;
 mod terminal;
+mod words;
 
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -55,7 +56,7 @@ pub fn main() -> ExitCode {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
         Ok(Answer::No) => ExitCode::from(1),
         Err(Failure(text)) => {
-            eprintln!("{}", text.trim_end());
+            words::tell(text.trim_end());
             ExitCode::from(2)
         }
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::arguments::{CutArguments, InfoArguments, ReplayArguments};
+use super::words;
 use super::{Answer, Failure};
 use crate::replay::{self, Survey, Tolerances};
 use crate::run::Options;
@@ -21,7 +22,10 @@ pub fn replay(arguments: &ReplayArguments) -> Result<Answer, Failure> {
     let known = header.model_hash.as_deref();
     if known.is_some_and(|hash| hash != model::hash(&plant)) {
         let recorded = header.model.as_deref().unwrap_or("another model");
-        eprintln!("warning: the trace was recorded with {recorded} in another state than {} has now", arguments.model);
+        words::tell(format_args!(
+            "warning: the trace was recorded with {recorded} in another state than {} has now",
+            arguments.model
+        ));
     }
     let step = header.step_ns.map_or(Options::STEP, Duration::from_nanos);
     let mut engine = model::engine(&plant, step, header.seed.unwrap_or_default())?;
@@ -30,9 +34,9 @@ pub fn replay(arguments: &ReplayArguments) -> Result<Answer, Failure> {
     let report = replay::run(&mut engine, &plant.signal_map, &survey, open(&arguments.trace)?, &tolerances);
     let report = report.map_err(|error| Failure::of(&error))?;
     if arguments.json {
-        println!("{}", serde_json::to_string(&report)?);
+        words::answer_line(serde_json::to_string(&report)?)?;
     } else {
-        print!("{report}");
+        words::answer(&report)?;
     }
     // Where nothing was compared, nothing was shown to be equal.
     let compared = !report.levels.is_empty() || !report.edges.is_empty();
@@ -49,9 +53,9 @@ fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
 pub fn info(arguments: &InfoArguments) -> Result<Answer, Failure> {
     let info = trace::info(open(&arguments.trace)?).map_err(|error| Failure::of(&error))?;
     if arguments.json {
-        println!("{}", serde_json::to_string(&info)?);
+        words::answer_line(serde_json::to_string(&info)?)?;
     } else {
-        print!("{}", info_text(&info));
+        words::answer(info_text(&info))?;
     }
     Ok(Answer::Yes)
 }

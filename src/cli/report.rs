@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
+use super::words::counted;
 use crate::run::{Quantiles, Summary};
 
 /// Some lines about `summary`, for people.
 pub fn text(summary: &Summary) -> String {
     let s = summary;
-    let mut out =
-        format!("{}: {} instances, {} signals, {} prototypes\n", s.model, s.instances, s.signals, s.prototypes);
+    let mut out = format!("{}: {}\n", s.model, extent(s.instances, s.signals, s.prototypes));
     let mut line = |name: &str, what: String| {
         // Writing to a string cannot fail.
         let _ = writeln!(out, "  {name:<11} {what}");
@@ -38,6 +38,16 @@ pub fn text(summary: &Summary) -> String {
         line("recorded", file.clone());
     }
     out
+}
+
+/// How large a model is, in words.
+pub fn extent(instances: usize, signals: usize, prototypes: usize) -> String {
+    [
+        counted(instances, "instance", "instances"),
+        counted(signals, "signal", "signals"),
+        counted(prototypes, "prototype", "prototypes"),
+    ]
+    .join(", ")
 }
 
 fn quantiles(quantiles: &Quantiles) -> String {

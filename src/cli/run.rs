@@ -10,6 +10,7 @@ use super::report;
 use super::signals::Interruption;
 use super::status::Status;
 use super::terminal::{Key, Terminal};
+use super::words;
 use super::{Answer, Failure};
 use crate::pace::WallClock;
 use crate::run::{self, Gravity, Handle, Notice, Options, RecordTo, Summary};
@@ -27,9 +28,9 @@ pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
     }
     let summary = handle.finish()?;
     if arguments.json {
-        println!("{}", serde_json::to_string(&summary)?);
+        words::answer_line(serde_json::to_string(&summary)?)?;
     } else {
-        print!("{}", report::text(&summary));
+        words::answer(report::text(&summary))?;
     }
     Ok(answer(&summary))
 }
@@ -37,11 +38,11 @@ pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
 fn answer(summary: &Summary) -> Answer {
     match (&summary.refused, summary.sessions) {
         (Some(refusal), _) => {
-            eprintln!("error: the server refused the session for good: {refusal}");
+            words::tell(format_args!("error: the server refused the session for good: {refusal}"));
             Answer::No
         }
         (None, 0) => {
-            eprintln!("error: the server never accepted a session; the model ran without its automation");
+            words::tell("error: the server never accepted a session; the model ran without its automation");
             Answer::No
         }
         (None, _) => Answer::Yes,
@@ -102,7 +103,7 @@ fn show(handle: &Handle, mut screen: Terminal, interruption: &Interruption, log:
     log.to_standard_error();
     let skipped = warnings.len().saturating_sub(TOLD_AGAIN);
     if skipped > 0 {
-        eprintln!("({skipped} earlier warnings are left out)");
+        words::tell(format_args!("({skipped} earlier warnings are left out)"));
     }
     warnings.iter().skip(skipped).for_each(say);
     Ok(())
@@ -123,7 +124,7 @@ fn tell(handle: &Handle) {
         let now = clock.now();
         if now.since(second) >= Duration::from_secs(1) {
             if silenced > 0 {
-                eprintln!("{:>11}  ({silenced} more)", "");
+                words::tell(format_args!("{:>11}  ({silenced} more)", ""));
             }
             (second, told, silenced) = (now, 0, 0);
         }
@@ -140,7 +141,7 @@ fn tell(handle: &Handle) {
         if let Some(frame) = frame.as_ref().filter(|_| now >= progress) {
             progress += PROGRESS;
             let (counts, timing) = (&frame.counts, (frame.overruns, frame.late_steps));
-            eprintln!(
+            words::tell(format_args!(
                 "{:>11}  {} simulated; boxes {} in, {} out; {} overruns, {} late",
                 now.to_string(),
                 frame.now,
@@ -148,7 +149,7 @@ fn tell(handle: &Handle) {
                 counts.boxes_out,
                 timing.0,
                 timing.1
-            );
+            ));
         }
     }
 }
@@ -159,7 +160,7 @@ fn say(notice: &Notice) {
         Gravity::Warning => "warning: ",
         Gravity::Error => "error: ",
     };
-    eprintln!("{:>11}  {gravity}{}", notice.at.to_string(), notice.text);
+    words::tell(format_args!("{:>11}  {gravity}{}", notice.at.to_string(), notice.text));
 }
 
 fn options(arguments: &RunArguments) -> Result<Options, Failure> {

@@ -8,7 +8,7 @@ use hdrhistogram::Histogram;
 use super::bell::Bell;
 use super::clock::WallClock;
 use crate::bank::SimulationSide;
-use crate::engine::Engine;
+use crate::engine::{Engine, Incident};
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
 use crate::value::Value;
@@ -71,6 +71,11 @@ impl Simulation {
         &self.engine
     }
 
+    /// What went wrong with parts since this was asked last.
+    pub fn take_incidents(&mut self) -> Vec<Incident> {
+        self.engine.take_incidents()
+    }
+
     /// How the steps went so far.
     pub fn timing(&self) -> &Timing {
         &self.timing
@@ -100,7 +105,7 @@ impl Simulation {
     ///
     /// Where a step began late, those after it follow at once until the schedule is kept again: simulated time is never
     /// let go of.
-    pub fn pace(&mut self, speed: f64, mut after: impl FnMut(&Simulation) -> ControlFlow<()>) {
+    pub fn pace(&mut self, speed: f64, mut after: impl FnMut(&mut Simulation) -> ControlFlow<()>) {
         sharpen_sleep();
         let clock = WallClock::start();
         let period = self.engine.step().div_f64(speed);

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::adapter::Event;
+use crate::engine::Incident;
 use crate::session::{ClientEvent, Ending};
 use crate::time::{Instant, format_duration};
 use crate::wire::Fault;
@@ -42,6 +43,11 @@ pub(super) fn notice(event: &Event, now: Instant) -> Option<Notice> {
         ),
     };
     Some(Notice { at: now, gravity, text })
+}
+
+/// What went wrong with a part, told at `now`.
+pub(super) fn incident(incident: &Incident, now: Instant) -> Notice {
+    Notice { at: now, gravity: Gravity::Warning, text: incident.to_string() }
 }
 
 fn session(event: &ClientEvent, now: Instant) -> Option<(Gravity, String)> {

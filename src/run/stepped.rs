@@ -13,7 +13,7 @@ use std::thread;
 use crossbeam::channel::bounded;
 
 use super::live::{self, ExchangeFrame, SimulationFrame};
-use super::notice::notice;
+use super::notice::{incident, notice};
 use super::recording::{self, Recording, Tap};
 use super::summary::{Simulated, Spoken};
 use super::wall::NOTICES;
@@ -84,6 +84,7 @@ impl Stepper {
     pub fn step(&mut self) {
         let now = self.simulation.engine().now();
         self.simulation.step();
+        self.notices.extend(self.simulation.take_incidents().iter().map(|what| incident(what, now)));
         self.turn(now);
     }
 

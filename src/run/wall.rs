@@ -9,7 +9,7 @@ use std::time::Duration;
 use crossbeam::channel::{Sender, bounded};
 
 use super::live::{self, ExchangeFrame, Publisher, SimulationFrame};
-use super::notice::notice;
+use super::notice::{incident, notice};
 use super::recording::{self, Tap};
 use super::summary::{Simulated, Spoken};
 use super::{Connect, Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Stop, Summary, model};
@@ -46,7 +46,7 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
     let io = Io {
         exchange: Exchange::new(connector, io_side, tap, facts.rates),
         frames: exchange_frames,
-        say,
+        say: say.clone(),
         stop: stop.clone(),
         spoken: Spoken::default(),
     };
@@ -54,6 +54,7 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
     let simulating = Simulating {
         simulation: Simulation::new(engine, simulation_side, Some(bell), journal),
         frames: simulation_frames,
+        say,
         stop: stop.clone(),
         steps: options.steps(),
         speed,
@@ -108,6 +109,7 @@ fn spawn<T: Send + 'static>(name: &str, work: impl FnOnce() -> T + Send + 'stati
 struct Simulating {
     simulation: Simulation,
     frames: Publisher<SimulationFrame>,
+    say: Sender<Notice>,
     stop: Stop,
     steps: Option<u64>,
     speed: f64,
@@ -116,12 +118,14 @@ struct Simulating {
 impl Simulating {
     /// Simulates until the last step or until it is stopped. When it is done the bell is gone: that ends the IO thread.
     fn run(self) -> Simulated {
-        let Simulating { mut simulation, frames, stop, steps, speed } = self;
+        let Simulating { mut simulation, frames, say, stop, steps, speed } = self;
         let clock = WallClock::start();
         let frame_steps = (FRAME_INTERVAL.as_secs_f64() * speed / simulation.engine().step().as_secs_f64()) as u64;
         if steps != Some(0) {
             let mut spare = SimulationFrame::default();
             simulation.pace(speed, |simulation| {
+                // Where nobody reads them fast enough, the newest are left out: a step waits for nobody.
+                simulation.take_incidents().iter().for_each(|what| drop(say.try_send(incident(what, clock.now()))));
                 let made = simulation.timing().steps;
                 if made % frame_steps.max(1) == 0 {
                     spare.fill(simulation);

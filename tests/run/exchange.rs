@@ -159,3 +159,34 @@ fn a_check_asks_the_server_for_its_interface() {
     assert_eq!((ended.code(), ended.stdout.as_str()), (2, ""));
     assert!(ended.stderr.contains("nobody listens there"), "{}", ended.stderr);
 }
+
+/// A pusher beside a belt that leads nowhere: what it pushes falls.
+const SPILL: &str = r#"<plant name="spill">
+  <instance name="Belt" prototype="StraightConveyor">
+    <pose x="0" y="0" z="0.8"/>
+    <property name="length" value="2 m"/>
+  </instance>
+  <instance name="Pusher" prototype="Pusher">
+    <pose x="1" y="-0.45" z="0.8" rz="90 deg"/>
+    <property name="stroke" value="0.8 m"/>
+    <property name="extendSpeed" value="2 m/s"/>
+  </instance>
+  <part kind="box" at="Belt" x="1" size="0.2;0.2;0.2"/>
+</plant>
+"#;
+
+#[test]
+fn what_befalls_a_part_is_told_with_its_place() {
+    let folder = TempDir::new().expect("a folder");
+    std::fs::write(folder.path().join("plant.xml"), SPILL).expect("written");
+    let host = Host::new();
+    let model = folder.path().to_str().expect("a path in UTF-8");
+    let mut run = Running::start(&["run", model, "--connect", &host.url(), "--json"]);
+    let (mut connection, _) = host.accept_session(200);
+    connection.send_value("Pusher.command", json!(1));
+    let line = run.line("fell from");
+    assert!(line.contains("warning: at ") && line.contains("box 1 fell from Belt at x 1.000, y 0."), "{line}");
+    run.interrupt();
+    connection.farewell();
+    assert_eq!(run.end().json()["parts_lost"], 1);
+}

@@ -209,3 +209,12 @@ fn mistakes_in_arguments_and_models_end_with_2_and_start_nothing() {
     check(&["run", "rig", "--record", "nowhere/trace"], "failed to record to nowhere/trace");
     check(&["fly"], "unrecognized subcommand");
 }
+
+#[test]
+fn a_reader_who_leaves_early_does_no_harm() {
+    // It is gone before the program has anything to say.
+    let mut run = Running::start(&["signals-map", "models/depalletizer"]);
+    run.leave();
+    let ended = run.end();
+    assert_eq!((ended.code(), ended.stderr.as_str()), (0, ""));
+}

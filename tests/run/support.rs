@@ -66,13 +66,20 @@ impl Running {
         assert!(status.expect("a shell").success(), "kinetwin was over before it was interrupted");
     }
 
+    /// Reads no more of its standard output, as `head` does when it has enough.
+    pub fn leave(&mut self) {
+        self.child.stdout = None;
+    }
+
     /// Waits for its end.
     pub fn end(mut self) -> Ended {
         for line in self.errors.by_ref() {
             self.said.push(line.expect("a line of text"));
         }
         let mut stdout = String::new();
-        self.child.stdout.take().expect("a pipe").read_to_string(&mut stdout).expect("text");
+        if let Some(mut pipe) = self.child.stdout.take() {
+            pipe.read_to_string(&mut stdout).expect("text");
+        }
         let status = self.child.wait().expect("an end");
         Ended { status, stdout, stderr: self.said.join("\n") }
     }
