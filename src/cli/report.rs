@@ -51,8 +51,8 @@ pub fn extent(instances: usize, signals: usize, prototypes: usize) -> String {
 }
 
 fn quantiles(quantiles: &Quantiles) -> String {
-    let Quantiles { p50: Some(p50), p99: Some(p99), p999: Some(p999), max: Some(max) } = quantiles else {
+    let Quantiles { count, p50: Some(p50), p99: Some(p99), p999: Some(p999), max: Some(max) } = quantiles else {
         return "not measured".to_owned();
     };
-    format!("p50 {p50} µs, p99 {p99} µs, p99.9 {p999} µs, max {max} µs")
+    format!("p50 {p50} µs, p99 {p99} µs, p99.9 {p999} µs, max {max} µs, of {count}")
 }

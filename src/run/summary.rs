@@ -159,9 +159,11 @@ impl Summary {
     }
 }
 
-/// A distribution in four numbers, microseconds; all of them `None` where nothing was measured.
+/// A distribution in four numbers, microseconds, and how many it was made of; all four `None` where nothing was measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Quantiles {
+    /// How many were measured. Of a few, the far quantiles are only the longest.
+    pub count: u64,
     pub p50: Option<f64>,
     pub p99: Option<f64>,
     pub p999: Option<f64>,
@@ -176,6 +178,7 @@ impl Quantiles {
         }
         let us = |ns: u64| Some((ns as f64 / 100.0).round() / 10.0);
         Quantiles {
+            count: histogram.len(),
             p50: us(histogram.value_at_quantile(0.5)),
             p99: us(histogram.value_at_quantile(0.99)),
             p999: us(histogram.value_at_quantile(0.999)),
@@ -192,12 +195,13 @@ mod tests {
     fn quantiles_are_microseconds_and_null_where_nothing_was_measured() {
         let mut histogram = Histogram::new_with_bounds(1, 1_000_000_000, 3).expect("bounds");
         let none = serde_json::to_string(&Quantiles::of_ns(&histogram)).expect("JSON");
-        assert_eq!(none, r#"{"p50":null,"p99":null,"p999":null,"max":null}"#);
+        assert_eq!(none, r#"{"count":0,"p50":null,"p99":null,"p999":null,"max":null}"#);
         for us in 1..=100 {
             histogram.record(us * 1000).expect("in bounds");
         }
         let quantiles = Quantiles::of_ns(&histogram);
         assert!(quantiles.p50.is_some_and(|us| (us - 50.0).abs() < 0.1), "{quantiles:?}");
+        assert_eq!(quantiles.count, 100);
         assert!(quantiles.max.is_some_and(|us| (us - 100.0).abs() < 0.1), "{quantiles:?}");
     }
 }
