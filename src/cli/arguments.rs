@@ -28,6 +28,11 @@ de-palletization line against it for 20 s over a real WebSocket, and ends with a
 const AFTER_HELP: &str = "\
 Durations are written with their unit: 20s, 500ms, 1.5s, 2m.
 
+Environment:
+  KINETWIN_LOG    what is logged on standard error: automation=info, or debug for all of it; warnings alone by default
+  KINETWIN_TOKEN  a bearer token for the server, where --token-file names none
+  NO_COLOR        set to anything, neither the screen nor an error is coloured
+
 Exit codes:
   0  the command did what was asked
   1  the answer is no: a check found a mismatch, a comparison differs, a run never had a session
@@ -208,6 +213,7 @@ Exit codes:
 
 /// Says what stands in a trace: its header, its times, and how often each signal stands in it.
 #[derive(Debug, Args)]
+#[command(after_long_help = INFO_HELP)]
 pub struct InfoArguments {
     /// The trace: *.cps.jsonl, or compressed *.cps.jsonl.zst
     pub trace: PathBuf,
@@ -215,6 +221,11 @@ pub struct InfoArguments {
     #[arg(long)]
     pub json: bool,
 }
+
+const INFO_HELP: &str = "\
+Examples:
+  kinetwin trace info session.cps.jsonl.zst
+  kinetwin trace info machine.cps.jsonl --json";
 
 /// Copies a span of a trace to a trace of its own.
 ///
