@@ -13,6 +13,7 @@ mod ask;
 pub mod live;
 pub mod model;
 mod notice;
+mod observe;
 mod options;
 mod recording;
 mod stepped;
@@ -34,6 +35,7 @@ use crate::plant::{ModelError, Plant};
 
 pub use ask::{Asked, ask};
 pub use notice::{Gravity, Notice};
+pub use observe::observe;
 pub use options::{Connect, Options, RecordTo, Speed};
 pub use stepped::Stepper;
 pub use summary::{Quantiles, Summary};

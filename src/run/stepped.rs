@@ -47,7 +47,7 @@ impl Stepper {
         Stepper::of(options, plant)
     }
 
-    fn of(options: &Options, plant: Arc<Plant>) -> Result<Stepper, RunError> {
+    pub(super) fn of(options: &Options, plant: Arc<Plant>) -> Result<Stepper, RunError> {
         let engine = model::engine(&plant, options.step, options.seed)?;
         let automation = Automation::new(plant.signal_map.clone(), Control::ByPlant)?;
         let mut connector = InProcess::to(Embedded { automation, connection: ConnectionId(0) });
