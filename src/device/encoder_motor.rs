@@ -60,6 +60,7 @@ struct EncoderMotor {
     enable: bool,
     drive: Driven,
     encoder: Encoder,
+    counts_finely: bool,
 }
 
 /// Builds one.
@@ -70,7 +71,7 @@ pub(super) fn build(parameters: &Parameters) -> Box<dyn Device> {
         bits: Some(bits).filter(|bits| *bits > 0),
     };
     let drive = Driven::new(drive_settings(parameters));
-    Box::new(EncoderMotor { speed_target: 0.0, enable: false, drive, encoder })
+    Box::new(EncoderMotor { speed_target: 0.0, enable: false, drive, encoder, counts_finely: false })
 }
 
 impl Device for EncoderMotor {
@@ -89,9 +90,14 @@ impl Device for EncoderMotor {
     }
 
     fn report(&mut self, reports: &mut [f64]) {
-        reports[ENCODER] = self.encoder.count(self.drive.load().position);
+        let angle = self.drive.load().position;
+        reports[ENCODER] = if self.counts_finely { self.encoder.passed(angle) } else { self.encoder.count(angle) };
         reports[SPEED_ACTUAL] = self.drive.velocity();
         reports[INVERTER_READY] = f64::from(self.drive.ready());
+    }
+
+    fn count_finely(&mut self) {
+        self.counts_finely = true;
     }
 
     fn state(&self, visit: &mut dyn FnMut(f64)) {

@@ -113,6 +113,10 @@ pub trait Device: Send {
     /// the kind; in SI units, BOOL as 0 or 1. What follows its command at once already follows it here.
     fn report(&mut self, reports: &mut [f64]);
 
+    /// From now on counters are reported as the numbers that they are rounded from, and do not wrap: a diagnosis compares
+    /// before all rounding.
+    fn count_finely(&mut self) {}
+
     /// Gives every number of the state to `visit`, in an order that never changes: for the state's hash.
     fn state(&self, visit: &mut dyn FnMut(f64));
 

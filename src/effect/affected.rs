@@ -185,6 +185,10 @@ impl Device for Affected {
         self.pass_reports(0.0, reports);
     }
 
+    fn count_finely(&mut self) {
+        self.inner.count_finely();
+    }
+
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         self.inner.state(visit);
         visit(self.now);

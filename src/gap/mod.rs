@@ -1,5 +1,49 @@
 //! The sim-to-real gap: where a model parts from its machine, which unmodelled effect causes it, and how far it shrinks on
 //! data that no fit saw, once that effect is added.
+//!
+//! ```text
+//! trace → recording → grid → subject ⇄ effects and parameters → prediction → score → locate
+//! ```
+//!
+//! A [`Recording`] is a trace as typed commands and reports. A [`Study`] is a plant with its recordings: the clocks and ticks
+//! of the machine, the noise of its signals, and one [`Subject`] for each device. A subject is the device alone, driven by
+//! the recorded commands at their exact times and by what its neighbours reported. It predicts its own reports, with any
+//! [`EffectSpec`] and any other nominal parameters, and scores the prediction against the recording: −2 ln likelihood, sample
+//! by sample and edge by edge.
+//!
+//! A fit is a function of parameters to residuals, whose squares sum to the cost:
+//!
+//! ```ignore
+//! let residuals = |p: &[f64]| subject.score(&subject.predict(&[lag(p[0])], &Overrides::default())?).residuals();
+//! ```
+//!
+//! and a bootstrap is made of sums over spans of time of what [`Score`] holds. Everything here may be shared between threads.
+//! The work of a study is spread over the cores with rayon, whose threads no line of ours starts or names.
 
+mod alone;
+mod cost;
+mod edges;
+mod floor;
+mod grid;
+mod overrides;
+mod prediction;
 pub mod production;
+mod recording;
 pub mod report;
+mod score;
+mod study;
+mod subject;
+mod track;
+
+#[cfg(doc)]
+use crate::plant::EffectSpec;
+pub use cost::{STRAY, STRAY_SPAN_S, unmatched};
+pub use floor::Floor;
+pub use grid::Grid;
+pub use overrides::Overrides;
+pub use prediction::{Predicted, PredictedEdge, Prediction};
+pub use recording::{Beat, Recording, RecordingError, Span, Stamped, TaskId};
+pub use score::{EdgeScore, LevelScore, Score, SignalScore};
+pub use study::{Study, StudyError};
+pub use subject::{SignalInfo, Subject};
+pub use track::{Edge, Track};

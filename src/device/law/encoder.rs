@@ -16,9 +16,14 @@ pub struct Encoder {
 const SAME_COUNT: f64 = 1e-6;
 
 impl Encoder {
+    /// How many counts, parts of one too, have passed at `angle`, rad, since angle 0.
+    pub fn passed(&self, angle: f64) -> f64 {
+        angle * self.counts_per_revolution / TAU
+    }
+
     /// The count at `angle`, rad: floor(angle · counts / 2π), for negative angles too, wrapped into its range.
     pub fn count(&self, angle: f64) -> f64 {
-        let whole = (angle * self.counts_per_revolution / TAU + SAME_COUNT).floor();
+        let whole = (self.passed(angle) + SAME_COUNT).floor();
         match self.bits {
             Some(bits) => whole.rem_euclid(f64::from(1_u32 << bits)),
             None => (whole + TWO_31).rem_euclid(2.0 * TWO_31) - TWO_31,

@@ -1,0 +1,227 @@
+//! A device on its own clock: commands in at their times, reports looked at on their grids, edges found between.
+
+use super::prediction::{Predicted, PredictedEdge};
+use super::subject::Run;
+use super::track::Track;
+use crate::device::Device;
+
+/// Two instants nearer than this are one, s.
+const SAME_S: f64 = 1e-9;
+/// How often the instant of an edge is halved: of a cycle of 20 ms, to a nanosecond.
+const HALVINGS: u32 = 24;
+
+/// A report that is looked at.
+pub(super) struct Watch<'a> {
+    pub port: usize,
+    pub track: Option<&'a Track>,
+    /// How far behind the grid's instant the state is looked at, s.
+    pub lead: f64,
+}
+
+/// A device with its clock.
+#[derive(Clone)]
+pub(super) struct Alone {
+    device: Box<dyn Device>,
+    now: f64,
+    reports: Vec<f64>,
+}
+
+impl Alone {
+    /// A device at rest at t = 0 with so many ports.
+    pub fn new(device: Box<dyn Device>, ports: usize) -> Alone {
+        Alone { device, now: 0.0, reports: vec![0.0; ports] }
+    }
+
+    fn advance_to(&mut self, at: f64) {
+        let span = at - self.now;
+        if span > 0.0 {
+            self.device.advance(span);
+            self.now = at;
+        }
+    }
+
+    fn look(&mut self) -> &[f64] {
+        self.device.report(&mut self.reports);
+        &self.reports
+    }
+}
+
+/// What happens next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Next {
+    Command(usize),
+    /// The streams that are due at this instant are sampled.
+    Sample,
+}
+
+/// Signals that are looked at at the same instants.
+struct Stream<'a> {
+    track: &'a Track,
+    lead: f64,
+    tick: f64,
+    /// The next instant of the grid.
+    next: usize,
+    /// Their places among the watches.
+    signals: Vec<usize>,
+}
+
+impl Stream<'_> {
+    fn at(&self) -> Option<f64> {
+        let at = *self.track.grid.instants.get(self.next)?;
+        let at = if self.tick > 0.0 { (at / self.tick).round() * self.tick } else { at };
+        Some((at + self.lead).max(0.0))
+    }
+}
+
+/// Lets a device live through a run.
+pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Predicted> {
+    let mut streams = streams(run, watches);
+    let mut views: Vec<View> = watches.iter().map(|watch| View::new(watch, &alone)).collect();
+    let has_edges = views.iter().any(|view| view.is_edge);
+    let mut command = 0;
+    loop {
+        let due = run.commands.get(command).map(|(_, stamped)| taken_up(stamped.at, run.command_tick));
+        let looked = streams.iter().filter_map(Stream::at).min_by(f64::total_cmp);
+        let (at, next) = match (due, looked) {
+            (_, None) => break,
+            (Some(due), Some(looked)) if is_first(due, looked, run.commands_first) => (due, Next::Command(command)),
+            (_, Some(looked)) => (looked, Next::Sample),
+        };
+        let before = (has_edges && at > alone.now).then(|| alone.clone());
+        alone.advance_to(at);
+        if let Some(before) = before {
+            note_edges(&mut views, &before, &mut alone);
+        }
+        match next {
+            Next::Command(index) => {
+                let (port, stamped) = run.commands[index];
+                alone.device.command(port, stamped.value);
+                command += 1;
+                if has_edges {
+                    note_at_once(&mut views, &mut alone);
+                }
+            }
+            Next::Sample => {
+                alone.look();
+                let due = |stream: &&mut Stream<'_>| stream.at().is_some_and(|own| own <= at + SAME_S);
+                for stream in streams.iter_mut().filter(due) {
+                    for signal in &stream.signals {
+                        views[*signal].sample(stream.next, alone.reports[watches[*signal].port]);
+                    }
+                    stream.next += 1;
+                }
+            }
+        }
+    }
+    views.into_iter().map(|view| view.predicted).collect()
+}
+
+/// When a command given at `at` acts: at the machine's next tick.
+fn taken_up(at: f64, tick: f64) -> f64 {
+    if tick > 0.0 { (at / tick - 1e-6).ceil() * tick } else { at }
+}
+
+/// Whether a command that is due comes before a look: at equal times a machine has looked already.
+fn is_first(due: f64, looked: f64, commands_first: bool) -> bool {
+    if commands_first { due <= looked + SAME_S } else { due < looked - SAME_S }
+}
+
+fn streams<'a>(run: &Run, watches: &[Watch<'a>]) -> Vec<Stream<'a>> {
+    let mut streams: Vec<Stream<'a>> = Vec::new();
+    for (signal, watch) in watches.iter().enumerate() {
+        let Some(track) = watch.track else { continue };
+        let same = |stream: &&mut Stream<'a>| {
+            std::sync::Arc::ptr_eq(&stream.track.grid, &track.grid) && stream.lead == watch.lead
+        };
+        match streams.iter_mut().find(same) {
+            Some(stream) => {
+                stream.signals.push(signal);
+                stream.next = stream.next.min(track.first);
+            }
+            None => {
+                let (lead, tick) = (watch.lead, run.sample_tick);
+                streams.push(Stream { track, lead, tick, next: track.first, signals: vec![signal] });
+            }
+        }
+    }
+    streams
+}
+
+/// What is seen of one signal so far.
+struct View {
+    port: usize,
+    first: usize,
+    is_edge: bool,
+    /// What it is now, and since when.
+    state: f64,
+    since: f64,
+    /// What was last shown.
+    shown: Option<f64>,
+    predicted: Predicted,
+}
+
+impl View {
+    fn new(watch: &Watch<'_>, alone: &Alone) -> View {
+        let is_edge = watch.track.is_some_and(|track| track.values.is_empty());
+        let predicted = match watch.track {
+            None => Predicted::Nothing,
+            Some(_) if is_edge => Predicted::Edges { initial: 0.0, edges: Vec::new() },
+            Some(track) => Predicted::Level(Vec::with_capacity(track.values.len())),
+        };
+        let mut alone = alone.clone();
+        let state = alone.look()[watch.port];
+        let first = watch.track.map_or(0, |track| track.first);
+        View { port: watch.port, first, is_edge, state, since: 0.0, shown: None, predicted }
+    }
+
+    fn becomes(&mut self, state: f64, at: f64) {
+        (self.state, self.since) = (state, at);
+    }
+
+    /// It is looked at, at the grid's instant `index`.
+    fn sample(&mut self, index: usize, value: f64) {
+        if index < self.first {
+            return;
+        }
+        match &mut self.predicted {
+            Predicted::Nothing => {}
+            Predicted::Level(values) => values.push(value),
+            Predicted::Edges { initial, edges } => {
+                match self.shown {
+                    None => *initial = value,
+                    Some(shown) if shown != value => {
+                        edges.push(PredictedEdge { at: self.since, index, to: value, part: None });
+                    }
+                    Some(_) => {}
+                }
+                self.shown = Some(value);
+            }
+        }
+    }
+}
+
+/// Finds when, between `before` and now, states became what they are.
+fn note_edges(views: &mut [View], before: &Alone, alone: &mut Alone) {
+    alone.look();
+    for view in views.iter_mut().filter(|view| view.is_edge && alone.reports[view.port] != view.state) {
+        let state = alone.reports[view.port];
+        let (mut low, mut high) = (before.clone(), alone.now);
+        for _ in 0..HALVINGS {
+            let mut middle = low.clone();
+            middle.advance_to(0.5 * (low.now + high));
+            if middle.look()[view.port] == state { high = middle.now } else { low = middle }
+        }
+        view.becomes(state, high);
+    }
+}
+
+/// Takes up what follows a command at once.
+fn note_at_once(views: &mut [View], alone: &mut Alone) {
+    alone.look();
+    for view in views.iter_mut().filter(|view| view.is_edge) {
+        let state = alone.reports[view.port];
+        if state != view.state {
+            view.becomes(state, alone.now);
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! A trace read for a diagnosis: typed commands and reports, in SI units, device by device.
+//!
+//! Times are those of the trace, in seconds since its start, exactly. What the model does not know is named and left out;
+//! what the trace does not hold is named too. Spans that somebody declared as no evidence (manual operation, a jam, an
+//! emergency stop), and spans in which nobody recorded, are kept as such: see [`Recording::is_blind`].
+
+use std::collections::BTreeMap;
+use std::io::BufRead;
+
+use crate::plant::{Instance, Plant, Task};
+use crate::prototype::quantity::to_si;
+use crate::signal_map::{Direction, Kind, RateClass, RegisterId, Signal, SignalMap};
+use crate::trace::{Body, Header, Line, Reader, Sender, Source, TraceError};
+use crate::value::{ElementaryType, SignalType};
+use crate::wire::{Entry, Message, TextForm, read_value};
+
+/// A task of an instance: one device of the engine, and what a diagnosis looks at one at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TaskId {
+    /// The instance's place in the plant.
+    pub instance: usize,
+    /// The task's place in the instance.
+    pub task: usize,
+}
+
+impl TaskId {
+    /// All tasks of a plant that have a signal, in the plant's order.
+    pub fn all(plant: &Plant) -> Vec<TaskId> {
+        let instances = plant.instances.iter().enumerate();
+        let tasks = instances.flat_map(|(instance, of)| {
+            (0..of.tasks.len()).map(move |task| TaskId { instance, task }).filter(|id| {
+                let ports = &of.tasks[id.task].ports;
+                ports.iter().any(Option::is_some)
+            })
+        });
+        tasks.collect()
+    }
+
+    /// The instance that it belongs to.
+    pub fn instance(self, plant: &Plant) -> &Instance {
+        &plant.instances[self.instance]
+    }
+
+    /// The task.
+    pub fn task(self, plant: &Plant) -> &Task {
+        &plant.instances[self.instance].tasks[self.task]
+    }
+
+    /// The instance's name, and that of the task behind a point where the instance has several.
+    pub fn name(self, plant: &Plant) -> String {
+        let instance = self.instance(plant);
+        match instance.tasks.len() {
+            1 => instance.name.clone(),
+            _ => format!("{}.{}", instance.name, self.task(plant).name),
+        }
+    }
+}
+
+/// A span of a trace, s, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    pub from: f64,
+    pub to: f64,
+}
+
+impl Span {
+    /// Whether an instant lies in it.
+    pub fn holds(self, at: f64) -> bool {
+        (self.from..=self.to).contains(&at)
+    }
+}
+
+/// A value at a time: of a command as it was given, of a report as it was stamped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stamped {
+    /// Seconds since the trace's start.
+    pub at: f64,
+    /// In SI units; BOOL as 0 or 1.
+    pub value: f64,
+}
+
+/// Which signals are sent together, and so have their stamps in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Beat {
+    /// Levels of the high-frequency loop.
+    Fast,
+    /// Levels of the low-frequency loop.
+    Slow,
+    /// Edges, which are sent when they come where the sender is not a PLC with one cycle for all.
+    Edges,
+}
+
+impl Beat {
+    /// All of them.
+    pub const ALL: [Beat; 3] = [Beat::Fast, Beat::Slow, Beat::Edges];
+
+    /// That of a signal.
+    pub fn of(signal: &Signal) -> Beat {
+        match (signal.kind, signal.rate) {
+            (Kind::Edge, _) => Beat::Edges,
+            (Kind::Level, RateClass::HighFrequency) => Beat::Fast,
+            (Kind::Level, RateClass::LowFrequency) => Beat::Slow,
+        }
+    }
+}
+
+/// A trace that cannot be used at all.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordingError {
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    #[error(
+        "{name}: none of the model's signals is reported in it ({lines} lines, {ignored} signals that the model lacks): \
+         is it a trace of this plant?"
+    )]
+    Foreign { name: String, lines: u64, ignored: usize },
+}
+
+/// A trace, read.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// What the trace was called when it was opened.
+    pub name: String,
+    pub header: Header,
+    /// The time of the last line, s. Silence after it is no evidence.
+    pub ends: f64,
+    /// How many lines there were, the header not counted.
+    pub lines: u64,
+    /// Signals of the trace that are left out, each with the reason.
+    pub ignored: BTreeMap<String, String>,
+    /// Signals of the model that the trace does not hold: reports that cannot be compared, and commands that are taken
+    /// to have stayed 0 or false. By name.
+    pub absent: Vec<String>,
+    /// What was left out beside that, in words, with how often.
+    pub notices: BTreeMap<String, u64>,
+    /// The last line, if it was torn.
+    pub torn: Option<String>,
+    /// Where there is no evidence: the spans declared to [`Recording::read`], and those between two connections.
+    pub blind: Vec<Span>,
+    /// The stamps of the plant's lines that held a signal of each [`Beat`], in its order; each stamp once.
+    pub stamps: [Vec<f64>; 3],
+    /// By register.
+    values: Vec<Vec<Stamped>>,
+}
+
+impl Recording {
+    /// Reads a trace to its end. `name` is what messages call it; `masks` are the spans to leave out.
+    ///
+    /// # Errors
+    /// Whatever a [`Reader`] finds (malformed lines, NaN, a time that goes back), and a trace in which nothing is reported
+    /// that the model knows.
+    pub fn read<R: BufRead>(
+        plant: &Plant,
+        name: &str,
+        mut reader: Reader<R>,
+        masks: &[Span],
+    ) -> Result<Recording, RecordingError> {
+        let map = &plant.signal_map;
+        let mut reading = Reading::new(map, name, reader.header().clone(), masks);
+        while let Some(line) = reader.next_line()? {
+            reading.line(&line);
+        }
+        reading.recording.torn = reader.torn().map(ToString::to_string);
+        reading.finish()
+    }
+
+    /// What was recorded of a register, in the order of time; empty where the trace does not hold it. Values are SI.
+    pub fn values(&self, register: RegisterId) -> &[Stamped] {
+        self.values.get(register.index()).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether what happened at an instant is no evidence.
+    pub fn is_blind(&self, at: f64) -> bool {
+        self.blind.iter().any(|span| span.holds(at))
+    }
+
+    /// Whether it was recorded by a simulation of ours, whose stamps are steps.
+    pub fn step(&self) -> Option<f64> {
+        let step = self.header.step_ns.filter(|_| self.header.source == Source::Simulation);
+        step.map(|ns| ns as f64 * 1e-9)
+    }
+}
+
+/// A recording in the making.
+struct Reading<'a> {
+    map: &'a SignalMap,
+    recording: Recording,
+    last_report: Option<f64>,
+}
+
+impl<'a> Reading<'a> {
+    fn new(map: &'a SignalMap, name: &str, header: Header, masks: &[Span]) -> Reading<'a> {
+        let recording = Recording {
+            name: name.to_owned(),
+            header,
+            ends: 0.0,
+            lines: 0,
+            ignored: BTreeMap::new(),
+            absent: Vec::new(),
+            notices: BTreeMap::new(),
+            torn: None,
+            blind: masks.to_vec(),
+            stamps: Default::default(),
+            values: vec![Vec::new(); map.signals().len()],
+        };
+        Reading { map, recording, last_report: None }
+    }
+
+    fn line(&mut self, line: &Line<'_>) {
+        let at = line.at.seconds();
+        self.recording.lines += 1;
+        self.recording.ends = at;
+        match (&line.body, line.from) {
+            (Body::Message(Message::SendValue(entries)), from @ (Sender::Automation | Sender::Plant)) => {
+                if from == Sender::Plant {
+                    self.last_report = Some(at);
+                }
+                for entry in entries {
+                    self.entry(at, from, entry);
+                }
+            }
+            // A new session: what changed since the last report of the one before was reported to nobody.
+            (Body::Message(Message::Connect(connect)), Sender::Plant) if connect.enable => {
+                let from = self.last_report.take();
+                self.recording.blind.extend(from.map(|from| Span { from, to: at }));
+            }
+            (Body::Refused { reason }, _) => self.notice(format!("a message that was refused is left out: {reason}")),
+            (Body::Event(_), Sender::Operator) => self.notice("what an operator did is left out".to_owned()),
+            _ => {}
+        }
+    }
+
+    fn notice(&mut self, words: String) {
+        *self.recording.notices.entry(words).or_default() += 1;
+    }
+
+    fn entry(&mut self, at: f64, from: Sender, entry: &Entry<'_>) {
+        let (Some(name), Some(raw)) = (&entry.name, entry.value) else {
+            return self.notice("an entry without a name or a value is left out".to_owned());
+        };
+        let Some(register) = self.map.register(name) else {
+            return self.ignore(name, "the model has no such signal");
+        };
+        let signal = self.map.signal(register);
+        match (signal.direction, from) {
+            (Direction::Command, Sender::Plant) => return self.ignore(name, "a command that the plant reported"),
+            (Direction::Report, Sender::Automation) => return self.ignore(name, "a report that the automation sent"),
+            _ => {}
+        }
+        let value = match read_value(raw, signal.ty, TextForm::Base64) {
+            Ok(value) => value.to_f64().filter(|number| number.is_finite()),
+            Err(unfit) => return self.notice(format!("{name}: a value is left out: {}", unfit.message)),
+        };
+        let Some(number) = value else { return self.ignore(name, "neither a number nor a BOOL") };
+        let number = self.as_written(signal, raw.as_number()).unwrap_or(number);
+        if signal.min.is_some_and(|min| number < min) || signal.max.is_some_and(|max| number > max) {
+            return self.notice(format!("{name}: a value out of its range is left out, as a session would refuse it"));
+        }
+        let value = if signal.unit.to_si == 1.0 { number } else { to_si(number, signal.unit) };
+        if from == Sender::Plant {
+            let stamps = &mut self.recording.stamps[Beat::of(signal) as usize];
+            if stamps.last() != Some(&at) {
+                stamps.push(at);
+            }
+        }
+        self.recording.values[register.index()].push(Stamped { at, value });
+    }
+
+    /// A machine's REAL as its decimal stands there: rounded to 32 bits it would lie off the lattice that it was rounded to.
+    /// The commands of a simulation of ours acted as 32 bits.
+    fn as_written(&self, signal: &Signal, text: Option<&str>) -> Option<f64> {
+        let is_ours = self.recording.header.source == Source::Simulation;
+        let is_real = signal.ty == SignalType::scalar(ElementaryType::Real);
+        let number = text.filter(|_| is_real && !(is_ours && signal.direction == Direction::Command))?;
+        number.parse().ok()
+    }
+
+    fn ignore(&mut self, name: &str, reason: &str) {
+        self.recording.ignored.entry(name.to_owned()).or_insert_with(|| reason.to_owned());
+    }
+
+    fn finish(self) -> Result<Recording, RecordingError> {
+        let Reading { map, mut recording, .. } = self;
+        if recording.stamps.iter().all(Vec::is_empty) {
+            let (name, ignored) = (recording.name, recording.ignored.len());
+            return Err(RecordingError::Foreign { name, lines: recording.lines, ignored });
+        }
+        let is_absent = |(_, signal): &(usize, &Signal)| !signal.task.is_empty();
+        let named = map.signals().iter().enumerate().filter(is_absent);
+        recording.absent = named
+            .filter(|(register, _)| recording.values[*register].is_empty())
+            .map(|(_, signal)| signal.name.clone())
+            .collect();
+        Ok(recording)
+    }
+}

@@ -1,0 +1,254 @@
+//! A prediction against what was recorded.
+
+use serde::Serialize;
+
+use super::cost::{self, residual};
+use super::edges::{Pair, interval, interval_cost, pair};
+use super::floor::Floor;
+use super::prediction::{Predicted, PredictedEdge};
+use super::track::Track;
+
+/// What a prediction costs: −2 ln of its likelihood, less that of a perfect one; smaller is better, and a difference of two is
+/// a deviance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Score {
+    /// The sum over all signals.
+    pub total: f64,
+    /// In the order of the subject's signals, run by run within each.
+    pub signals: Vec<SignalScore>,
+}
+
+/// What is scored of one signal in one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalScore {
+    /// The signal's place among the subject's.
+    pub signal: usize,
+    /// The run's place among the subject's.
+    pub run: usize,
+    /// The sum of its costs.
+    pub cost: f64,
+    /// What that would be where nothing is wrong, and the variance of it.
+    pub floor_cost: (f64, f64),
+    /// Of a level the root mean square difference in the signal's SI unit, of an edge that of its time error in s.
+    pub rms: f64,
+    /// What that would be where nothing is wrong.
+    pub floor: f64,
+    pub level: Option<LevelScore>,
+    pub edges: Vec<EdgeScore>,
+}
+
+/// A level, sample by sample: three lists of one length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LevelScore {
+    /// Instants, s.
+    pub at: Vec<f64>,
+    /// Costs, 0 or more. A sample that says nothing new (nothing has changed in signal and prediction since the one before,
+    /// and no noise shows) costs nothing, so that every rest counts once.
+    pub cost: Vec<f64>,
+    /// Square roots of the costs, with the sign of recorded less predicted.
+    pub residual: Vec<f64>,
+    /// Recorded less predicted, SI.
+    pub difference: Vec<f64>,
+}
+
+/// An edge: a pair, or one that only one side has.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EdgeScore {
+    /// What the signal becomes.
+    pub to: f64,
+    /// Between which instants the recorded one came, s; `None`: it is missing there (the prediction's is extra).
+    pub recorded: Option<(f64, f64)>,
+    /// When the predicted one comes, s; `None`: it is missing there.
+    pub predicted: Option<f64>,
+    /// How far the predicted one lies outside of the recorded one's interval, s: positive where the recorded one is later; 0
+    /// within it, and of an edge alone.
+    pub error: f64,
+    pub cost: f64,
+    pub residual: f64,
+}
+
+impl EdgeScore {
+    /// When it was, s: as recorded, else as predicted.
+    pub fn at(&self) -> f64 {
+        self.recorded.map(|(_, seen)| seen).or(self.predicted).unwrap_or(0.0)
+    }
+}
+
+impl Score {
+    /// Everything as residuals of least squares, whose squares sum to [`Score::total`]. Their number depends on the recordings
+    /// alone: of each level one for each sample, of each edge one for each that was recorded, and one for all that were not.
+    pub fn residuals(&self) -> Vec<f64> {
+        let mut residuals = Vec::new();
+        for signal in &self.signals {
+            residuals.extend(signal.level.iter().flat_map(|level| &level.residual));
+            let recorded = signal.edges.iter().filter(|edge| edge.recorded.is_some());
+            residuals.extend(recorded.map(|edge| edge.residual));
+            if signal.level.is_none() {
+                let extra = signal.edges.iter().filter(|edge| edge.recorded.is_none());
+                residuals.push(extra.map(|edge| edge.cost).sum::<f64>().sqrt());
+            }
+        }
+        residuals
+    }
+
+    /// Every cost with its instant and its run, for sums over spans of time.
+    pub fn costs(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+        self.signals.iter().flat_map(|signal| {
+            let levels = signal.level.iter().flat_map(|level| level.at.iter().zip(&level.cost));
+            let levels = levels.map(|(at, cost)| (signal.run, *at, *cost));
+            levels.chain(signal.edges.iter().map(|edge| (signal.run, edge.at(), edge.cost)))
+        })
+    }
+
+    /// What is left above the floor: the cost less what it would be where nothing is wrong.
+    pub fn excess(&self) -> f64 {
+        self.total - self.signals.iter().map(|signal| signal.floor_cost.0).sum::<f64>()
+    }
+
+    pub(super) fn of(signals: Vec<SignalScore>) -> Score {
+        Score { total: signals.iter().map(|signal| signal.cost).sum(), signals }
+    }
+}
+
+impl SignalScore {
+    /// How many recorded edges no prediction stands for.
+    pub fn missing(&self) -> usize {
+        self.edges.iter().filter(|edge| edge.predicted.is_none()).count()
+    }
+
+    /// How many predicted edges were not recorded.
+    pub fn extra(&self) -> usize {
+        self.edges.iter().filter(|edge| edge.recorded.is_none()).count()
+    }
+
+    /// A level whose `predicted` values stand for those of its track.
+    pub(super) fn level(place: (usize, usize), track: &Track, predicted: &[f64], floor: Floor, is_count: bool) -> Self {
+        let grid = &track.grid;
+        let half = if is_count { 0.5 } else { 0.0 };
+        let shows_noise = floor.noise > floor.step / 3.0;
+        let mut level = LevelScore::default();
+        let (mut squares, mut floors, mut counted) = (0.0, 0.0, 0.0);
+        for (k, (recorded, predicted_here)) in track.values.iter().zip(predicted).enumerate() {
+            let index = track.first + k;
+            if track.is_blind(index) {
+                continue;
+            }
+            let slope = slope(grid.instants.as_slice(), track.first, predicted, k);
+            let difference = recorded + half - predicted_here;
+            let is_rest = !shows_noise
+                && k > 0
+                && track.values[k - 1] == *recorded
+                && (predicted[k - 1] - predicted_here).abs() < 1e-3 * floor.step;
+            let cost = match is_rest {
+                true => 0.0,
+                false => cost::level(recorded + half, *predicted_here, floor.step, floor.sigma(slope)),
+            };
+            level.at.push(grid.instants[index]);
+            level.cost.push(cost);
+            level.residual.push(residual(cost, difference));
+            level.difference.push(difference);
+            squares += difference * difference;
+            floors += floor.rms(slope).powi(2);
+            counted += if is_rest { 0.0 } else { 1.0 };
+        }
+        let count = level.at.len().max(1) as f64;
+        let (mean, variance) = floor.cost();
+        SignalScore {
+            signal: place.0,
+            run: place.1,
+            cost: level.cost.iter().sum(),
+            floor_cost: (mean * counted, variance * counted),
+            rms: (squares / count).sqrt(),
+            floor: (floors / count).sqrt(),
+            level: Some(level),
+            edges: Vec::new(),
+        }
+    }
+
+    /// An edge whose `predicted` changes stand for those of its track; `sigma` is how far a sensor may be off in time, s.
+    pub(super) fn edges(place: (usize, usize), track: &Track, predicted: &[PredictedEdge], sigma: f64) -> Self {
+        let pairs = pair(track, predicted, sigma);
+        let kept = pairs.iter().map(|pair| edge(track, predicted, pair, sigma));
+        let edges: Vec<EdgeScore> = kept.flatten().collect();
+        let errors: Vec<f64> =
+            edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
+        let count = errors.len().max(1) as f64;
+        let (mean, variance) = edge_floor(track.grid.cycle, sigma.hypot(track.grid.spread));
+        let recorded = edges.iter().filter(|edge| edge.recorded.is_some()).count() as f64;
+        SignalScore {
+            signal: place.0,
+            run: place.1,
+            cost: edges.iter().map(|edge| edge.cost).sum(),
+            floor_cost: (mean * recorded, variance * recorded),
+            rms: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
+            floor: sigma.hypot(track.grid.spread) * (sigma / track.grid.cycle.max(sigma)).sqrt(),
+            level: None,
+            edges,
+        }
+    }
+
+    /// A signal in one run.
+    pub(super) fn new(
+        place: (usize, usize),
+        track: &Track,
+        predicted: &Predicted,
+        floor: Floor,
+        is_count: bool,
+        sigma: f64,
+    ) -> Option<Self> {
+        match predicted {
+            Predicted::Nothing => None,
+            Predicted::Level(values) => Some(SignalScore::level(place, track, values, floor, is_count)),
+            Predicted::Edges { edges, .. } => Some(SignalScore::edges(place, track, edges, sigma)),
+        }
+    }
+}
+
+/// How steeply a level is predicted to change about the `k`th instant of its track.
+fn slope(instants: &[f64], first: usize, predicted: &[f64], k: usize) -> f64 {
+    let (low, high) = (k.saturating_sub(1), (k + 1).min(predicted.len() - 1));
+    let span = instants[first + high] - instants[first + low];
+    if span > 0.0 { ((predicted[high] - predicted[low]) / span).abs() } else { 0.0 }
+}
+
+/// One pair; `None` where it lies in a span without evidence.
+fn edge(track: &Track, predicted: &[PredictedEdge], pair: &Pair, sigma: f64) -> Option<EdgeScore> {
+    let recorded = pair.recorded.map(|at| track.edges[at]);
+    let foreseen = pair.predicted.map(|at| predicted[at]);
+    let blind = recorded.is_some_and(|edge| track.is_blind(edge.index))
+        || foreseen.is_some_and(|edge| track.is_blind(edge.index));
+    if blind {
+        return None;
+    }
+    let within = recorded.map(|edge| interval(track, edge.index));
+    let (cost, error) = match (recorded, within, foreseen) {
+        (Some(recorded), Some((before, seen)), Some(foreseen)) => {
+            let error = if foreseen.at > seen { seen - foreseen.at } else { (before - foreseen.at).max(0.0) };
+            (interval_cost(track, recorded.index, foreseen.at, sigma), error)
+        }
+        _ => (cost::unmatched(), 0.0),
+    };
+    let middle = within.map_or(0.0, |(before, seen)| 0.5 * (before + seen));
+    let side = foreseen.map_or(1.0, |foreseen| middle - foreseen.at);
+    let to = recorded.map(|edge| edge.to).or(foreseen.map(|edge| edge.to)).unwrap_or(0.0);
+    let predicted = foreseen.map(|edge| edge.at);
+    Some(EdgeScore { to, recorded: within, predicted, error, cost, residual: residual(cost, side) })
+}
+
+/// Mean and variance of the cost of an edge where nothing is wrong: anywhere within a cycle, its sensor off by `sigma`.
+fn edge_floor(cycle: f64, sigma: f64) -> (f64, f64) {
+    const PLACES: i32 = 64;
+    let reach = if cycle > 0.0 { ((6.0 * sigma / cycle).ceil() as i32).min(64) } else { 0 };
+    let (mut mean, mut square) = (0.0, 0.0);
+    for place in 0..PLACES {
+        let at = cycle * (f64::from(place) + 0.5) / f64::from(PLACES);
+        for shown in -reach..=reach {
+            let (before, seen) = (f64::from(shown) * cycle, f64::from(shown + 1) * cycle);
+            let share = cost::normal((seen - at) / sigma) - cost::normal((before - at) / sigma);
+            let cost = cost::edge(before, seen, at, sigma);
+            mean += share * cost / f64::from(PLACES);
+            square += share * cost * cost / f64::from(PLACES);
+        }
+    }
+    (mean, (square - mean * mean).max(1e-6))
+}

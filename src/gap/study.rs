@@ -1,0 +1,92 @@
+//! A plant and its recordings, made ready: grids, ticks, floors, and one subject for each device.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::grid::Grid;
+use super::overrides::Overrides;
+use super::prediction::Prediction;
+use super::recording::{Beat, Recording, TaskId};
+use super::score::Score;
+use super::subject::Subject;
+use crate::effect::EffectError;
+use crate::plant::Plant;
+
+/// Why there is nothing to study.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    #[error("no recording was given: a diagnosis needs at least one")]
+    NoRecording,
+    #[error("the model cannot be replayed: {0}")]
+    Model(#[from] EffectError),
+}
+
+/// Everything a diagnosis asks.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// One for each task that has a signal, in the plant's order.
+    pub subjects: Vec<Subject>,
+    /// What the model alone predicts of each, in their order.
+    pub nominal: Vec<Prediction>,
+    /// The tick of the machine in each recording, s; 0: none was found.
+    pub ticks: Vec<f64>,
+    /// When the machine looked at its state, by recording and [`Beat`].
+    pub grids: Vec<[Arc<Grid>; 3]>,
+}
+
+impl Study {
+    /// Reads all that can be known without any candidate.
+    ///
+    /// # Errors
+    /// No recording; a model whose own effects do not fit.
+    pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
+        if recordings.is_empty() {
+            return Err(StudyError::NoRecording);
+        }
+        let grids: Vec<[Arc<Grid>; 3]> = recordings.iter().map(grids).collect();
+        let ids = TaskId::all(plant);
+        let mut subjects: Vec<Subject> =
+            ids.into_par_iter().map(|id| Subject::new(plant, id, recordings, &grids)).collect();
+        let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
+        let ticks = vec![0.0; recordings.len()];
+        Ok(Study { subjects, nominal, ticks, grids })
+    }
+
+    /// The subject called so.
+    pub fn subject(&self, name: &str) -> Option<&Subject> {
+        self.subjects.iter().find(|subject| subject.name == name)
+    }
+
+    /// What the model alone costs, subject by subject.
+    pub fn scores(&self) -> Vec<Score> {
+        self.subjects.par_iter().zip(&self.nominal).map(|(subject, nominal)| subject.score(nominal)).collect()
+    }
+}
+
+/// The nominal prediction of a subject, and its floors with it.
+fn calibrate(subject: &mut Subject) -> Result<Prediction, EffectError> {
+    let nominal = subject.predict(&[], &Overrides::none())?;
+    subject.find_floors(&nominal);
+    Ok(nominal)
+}
+
+/// The grids of a recording: one for all where all signals lie on it, else one for each beat.
+fn grids(recording: &Recording) -> [Arc<Grid>; 3] {
+    let [fast, slow, edges] = &recording.stamps;
+    let mut all: Vec<f64> = recording.stamps.concat();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    if let Some(step) = recording.step() {
+        // Steps of ours are known: edges leave with theirs, levels with a cycle of their own.
+        let edges = Arc::new(Grid::of_steps(step, recording.ends));
+        return [Arc::new(Grid::rebuild(fast)), Arc::new(Grid::rebuild(slow)), edges];
+    }
+    let main = if fast.is_empty() { &all } else { fast };
+    let main = Grid::rebuild(main);
+    if main.is_rebuilt && main.fits(slow) && main.fits(edges) {
+        let one = Arc::new(Grid::rebuild(&all));
+        return [one.clone(), one.clone(), one];
+    }
+    Beat::ALL.map(|beat| Arc::new(Grid::rebuild(&recording.stamps[beat as usize])))
+}

@@ -1,0 +1,258 @@
+//! One device alone: driven by the recorded commands and by what its neighbours reported, it predicts its own reports.
+
+use std::sync::Arc;
+
+use super::alone::{self, Alone, Watch};
+use super::floor::Floor;
+use super::grid::Grid;
+use super::overrides::Overrides;
+use super::prediction::{Predicted, Prediction};
+use super::recording::{Beat, Recording, Stamped, TaskId};
+use super::score::{Score, SignalScore};
+use super::track::Track;
+use crate::effect::{self, EffectError};
+use crate::plant::{EffectSpec, Parameters, Plant};
+use crate::prototype::kind::{KindDescriptor, PortType};
+use crate::signal_map::{Direction, Kind, RegisterId};
+
+/// How far a sensor may be off in time where nothing better is known, s.
+pub(super) const EDGE_SIGMA_S: f64 = 3e-4;
+
+/// A report of a subject.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalInfo {
+    /// As in the trace: `Axis.position`.
+    pub name: String,
+    pub register: RegisterId,
+    /// The port of the device's kind.
+    pub port: usize,
+    /// As the device's kind calls it: `position`. What an effect's component names.
+    pub property: String,
+    pub kind: Kind,
+    /// The SI unit of its values: `m`, `rad/s`, `1`.
+    pub unit: String,
+    /// A counter: its values are whole, rounded down.
+    pub is_count: bool,
+}
+
+/// A recording, as one device lived through it.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The recording's name.
+    pub recording: String,
+    /// When its last line was, s.
+    pub ends: f64,
+    /// What the device was told, each value with its port; in the order of time.
+    pub commands: Vec<(usize, Stamped)>,
+    /// What it reported, in the order of [`Subject::signals`]; `None` where the recording does not hold it.
+    pub tracks: Vec<Option<Track>>,
+    /// The floors of its levels, in the same order.
+    pub floors: Vec<Floor>,
+    /// How far its sensors may be off in time, s.
+    pub edge_sigma: f64,
+    /// At equal times, whether a report already follows a command: so with steps of ours.
+    pub(super) commands_first: bool,
+    /// The tick at which the machine looked at its state, s; 0: none.
+    pub(super) sample_tick: f64,
+    /// The tick at which it took commands up, s; 0: at once.
+    pub(super) command_tick: f64,
+}
+
+/// A device of a plant with what the recordings say of it. May be shared between threads; every prediction builds a device
+/// of its own.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    pub id: TaskId,
+    /// The instance's name, and the task's where it has several.
+    pub name: String,
+    pub kind: &'static KindDescriptor,
+    /// The nominal parameters, SI.
+    pub parameters: Parameters,
+    /// What the model already adds to the nominal law.
+    pub effects: Vec<EffectSpec>,
+    /// The device's reports that have a signal.
+    pub signals: Vec<SignalInfo>,
+    /// One for each recording.
+    pub runs: Vec<Run>,
+    /// The instance's name, from which all that is random about the device follows.
+    instance: String,
+    /// The ports that have a signal and take commands.
+    commanded: Vec<usize>,
+}
+
+impl Subject {
+    /// The device `id` of `plant` in each of `recordings`, whose grids for each [`Beat`] stand in `grids`.
+    pub(super) fn new(plant: &Plant, id: TaskId, recordings: &[Recording], grids: &[[Arc<Grid>; 3]]) -> Subject {
+        let (instance, task) = (id.instance(plant), id.task(plant));
+        let tasks: Vec<&str> = instance.tasks.iter().map(|task| task.name.as_str()).collect();
+        let signals = signals_of(plant, id);
+        let commanded = ports(plant, id, Direction::Command);
+        let runs = recordings.iter().zip(grids).map(|(recording, grids)| {
+            let track = |info: &SignalInfo| track_of(plant, info, recording, grids);
+            Run {
+                recording: recording.name.clone(),
+                ends: recording.ends,
+                commands: commands_of(&commanded, recording),
+                tracks: signals.iter().map(track).collect(),
+                floors: vec![Floor { step: 1.0, noise: 0.0, timing: 0.0 }; signals.len()],
+                edge_sigma: EDGE_SIGMA_S,
+                commands_first: recording.step().is_some(),
+                sample_tick: 0.0,
+                command_tick: 0.0,
+            }
+        });
+        Subject {
+            id,
+            name: id.name(plant),
+            kind: task.kind,
+            parameters: task.parameters.clone(),
+            effects: effect::of_task(&instance.effects, &task.name, &tasks),
+            runs: runs.collect(),
+            signals,
+            instance: instance.name.clone(),
+            commanded: commanded.into_iter().map(|(port, _)| port).collect(),
+        }
+    }
+
+    /// What the device would have reported with `effects` beside those of the model and with `overrides` in place of its
+    /// nominal parameters: forward, at the exact times of its commands, in all runs.
+    ///
+    /// # Errors
+    /// Effects or parameters that do not fit the device, or that are out of their ranges.
+    pub fn predict(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Prediction, EffectError> {
+        let all: Vec<EffectSpec> = self.effects.iter().chain(effects).cloned().chain(overrides.effects()).collect();
+        let mut device = effect::build(self.kind, &self.parameters, &self.instance, &all, 0)?;
+        device.count_finely();
+        for port in &self.commanded {
+            device.command(*port, 0.0);
+        }
+        let run = |run: &Run| {
+            let watches: Vec<Watch<'_>> = self
+                .signals
+                .iter()
+                .zip(&run.tracks)
+                .map(|(info, track)| Watch { port: info.port, track: track.as_ref(), lead: self.lead(info, run) })
+                .collect();
+            alone::run(Alone::new(device.boxed(), self.kind.ports.len()), run, &watches)
+        };
+        Ok(Prediction { runs: self.runs.iter().map(run).collect() })
+    }
+
+    /// Compares a prediction of this subject with what was recorded.
+    pub fn score(&self, prediction: &Prediction) -> Score {
+        let mut scores = Vec::new();
+        for (signal, info) in self.signals.iter().enumerate() {
+            for (at, (run, predicted)) in self.runs.iter().zip(&prediction.runs).enumerate() {
+                let Some(track) = &run.tracks[signal] else { continue };
+                let floor = run.floors[signal];
+                let sigma = run.edge_sigma;
+                scores.extend(SignalScore::new((signal, at), track, &predicted[signal], floor, info.is_count, sigma));
+            }
+        }
+        Score::of(scores)
+    }
+
+    /// How far two predictions lie apart in units of the noise, as residuals of least squares: of a level sample by sample,
+    /// of an edge in its time, with that of a cycle as far as it is hidden by it. What tells two causes apart on these very
+    /// recordings.
+    pub fn apart(&self, one: &Prediction, other: &Prediction) -> Vec<f64> {
+        let mut residuals = Vec::new();
+        for (run, (one, other)) in self.runs.iter().zip(one.runs.iter().zip(&other.runs)) {
+            for (signal, pair) in one.iter().zip(other).enumerate() {
+                apart(run, signal, pair, &mut residuals);
+            }
+        }
+        residuals
+    }
+
+    /// Finds the floors of all levels from the recordings and a prediction, which may be wrong: what it gets wrong is slow
+    /// beside noise.
+    pub(super) fn find_floors(&mut self, prediction: &Prediction) {
+        let is_servo = self.kind.name == "kinetwin.ServoAxis";
+        for (run, predicted) in self.runs.iter_mut().zip(&prediction.runs) {
+            for (signal, info) in self.signals.iter().enumerate() {
+                let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &predicted[signal]) else {
+                    continue;
+                };
+                let timing = match run.sample_tick > 0.0 || run.commands_first {
+                    true if is_servo && info.property == "force" => 25e-6,
+                    true => 10e-6,
+                    false => 50e-6_f64.hypot(track.grid.spread),
+                };
+                run.floors[signal] = Floor::of(&track.grid, &track.values, values, timing, info.is_count);
+            }
+        }
+    }
+
+    /// How far behind its instant a signal is looked at, s. A drive's force is that of the tick that follows: in its middle.
+    fn lead(&self, info: &SignalInfo, run: &Run) -> f64 {
+        let is_force = self.kind.name == "kinetwin.ServoAxis" && info.property == "force";
+        if is_force { 0.5 * run.sample_tick } else { 0.0 }
+    }
+}
+
+fn ports(plant: &Plant, id: TaskId, direction: Direction) -> Vec<(usize, RegisterId)> {
+    let task = id.task(plant);
+    let bound = task.ports.iter().enumerate().filter_map(|(port, register)| Some((port, (*register)?)));
+    bound.filter(|(port, _)| task.kind.ports[*port].direction == direction).collect()
+}
+
+fn signals_of(plant: &Plant, id: TaskId) -> Vec<SignalInfo> {
+    let kind = id.task(plant).kind;
+    let info = |(port, register): (usize, RegisterId)| {
+        let signal = plant.signal_map.signal(register);
+        let descriptor = &kind.ports[port];
+        SignalInfo {
+            name: signal.name.clone(),
+            register,
+            port,
+            property: descriptor.name.to_owned(),
+            kind: signal.kind,
+            unit: crate::prototype::quantity::si_unit(signal.unit.quantity).to_string(),
+            is_count: signal.kind == Kind::Level && descriptor.ty == PortType::Integer,
+        }
+    };
+    ports(plant, id, Direction::Report).into_iter().map(info).collect()
+}
+
+fn track_of(plant: &Plant, info: &SignalInfo, recording: &Recording, grids: &[Arc<Grid>; 3]) -> Option<Track> {
+    let signal = plant.signal_map.signal(info.register);
+    let grid = &grids[Beat::of(signal) as usize];
+    let stamped = recording.values(info.register);
+    match info.kind {
+        Kind::Level => Track::level(grid, recording, stamped),
+        Kind::Edge => Track::edge(grid, recording, stamped),
+    }
+}
+
+fn commands_of(commanded: &[(usize, RegisterId)], recording: &Recording) -> Vec<(usize, Stamped)> {
+    let of = |(port, register): &(usize, RegisterId)| {
+        let port = *port;
+        recording.values(*register).iter().map(move |stamped| (port, *stamped))
+    };
+    let mut commands: Vec<(usize, Stamped)> = commanded.iter().flat_map(of).collect();
+    commands.sort_by(|a, b| a.1.at.total_cmp(&b.1.at));
+    commands
+}
+
+fn apart(run: &Run, signal: usize, pair: (&Predicted, &Predicted), residuals: &mut Vec<f64>) {
+    let Some(track) = &run.tracks[signal] else { return };
+    match pair {
+        (Predicted::Level(one), Predicted::Level(other)) => {
+            let floor = run.floors[signal];
+            let sigma = floor.rms(0.0).max(floor.sigma(0.0));
+            residuals.extend(one.iter().zip(other).map(|(a, b)| (a - b) / sigma));
+        }
+        (Predicted::Edges { edges: one, .. }, Predicted::Edges { edges: other, .. }) => {
+            let sigma = run.edge_sigma.hypot(track.grid.cycle / 12.0_f64.sqrt());
+            let mut rest = other.iter().peekable();
+            for edge in one {
+                // Whatever only one of them has is as far off as an edge can be.
+                let near = rest.next_if(|other| other.to == edge.to);
+                residuals.push(near.map_or(4.0, |near| (edge.at - near.at) / sigma));
+            }
+            residuals.extend(rest.map(|_| 4.0));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,91 @@
+//! A recorded signal on the grid of its reports.
+
+use std::sync::Arc;
+
+use super::grid::Grid;
+use super::recording::{Recording, Stamped};
+
+/// What one recording says of one signal.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// When the signal was looked at.
+    pub grid: Arc<Grid>,
+    /// The first of the grid's instants from which its value is known.
+    pub first: usize,
+    /// Of a level: its value at each instant from `first`, SI; held where no line says otherwise. Empty of an edge.
+    pub values: Vec<f64>,
+    /// Of an edge: its value at `first`.
+    pub initial: f64,
+    /// Of an edge: its changes after that.
+    pub edges: Vec<Edge>,
+    /// From which instants on (index into the grid) nothing counts, and until which; ascending.
+    pub blind: Vec<(usize, usize)>,
+}
+
+/// A change of a recorded state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// The grid's instant at which it was first seen; at the instant before it was not there yet.
+    pub index: usize,
+    /// What the signal became.
+    pub to: f64,
+}
+
+impl Track {
+    /// A level; `None` where it was never reported.
+    pub fn level(grid: &Arc<Grid>, recording: &Recording, stamped: &[Stamped]) -> Option<Track> {
+        let mut track = Track::empty(grid, recording, stamped)?;
+        let mut value = stamped[0].value;
+        let mut next = stamped.iter().peekable();
+        for index in track.first..grid.instants.len() {
+            while let Some(news) = next.next_if(|news| grid.index(news.at) <= index) {
+                value = news.value;
+            }
+            track.values.push(value);
+        }
+        Some(track)
+    }
+
+    /// An edge; `None` where it was never reported. Of several changes within a cycle the last is seen.
+    pub fn edge(grid: &Arc<Grid>, recording: &Recording, stamped: &[Stamped]) -> Option<Track> {
+        let mut track = Track::empty(grid, recording, stamped)?;
+        let mut value = stamped[0].value;
+        track.initial = value;
+        let mut seen: Vec<(usize, f64)> = Vec::new();
+        for news in stamped {
+            let index = grid.index(news.at);
+            match seen.last_mut() {
+                Some(last) if last.0 == index => last.1 = news.value,
+                _ => seen.push((index, news.value)),
+            }
+        }
+        track.initial = seen.first().map_or(value, |(_, first)| *first);
+        value = track.initial;
+        for (index, to) in seen {
+            if to != value {
+                track.edges.push(Edge { index, to });
+                value = to;
+            }
+        }
+        Some(track)
+    }
+
+    fn empty(grid: &Arc<Grid>, recording: &Recording, stamped: &[Stamped]) -> Option<Track> {
+        let first = grid.index(stamped.first()?.at);
+        let at = |instant: f64| grid.instants.partition_point(|at| *at < instant);
+        let blind = recording.blind.iter().map(|span| (at(span.from), at(span.to))).collect();
+        let grid = grid.clone();
+        Some(Track { grid, first, values: Vec::new(), initial: 0.0, edges: Vec::new(), blind })
+    }
+
+    /// Whether an instant of the grid is no evidence.
+    pub fn is_blind(&self, index: usize) -> bool {
+        self.blind.iter().any(|(from, to)| (*from..=*to).contains(&index))
+    }
+
+    /// From when to when something was recorded, s.
+    pub fn span(&self) -> (f64, f64) {
+        let at = |index: usize| self.grid.instants.get(index).copied().unwrap_or(0.0);
+        (at(self.first), at(self.grid.instants.len().saturating_sub(1)))
+    }
+}
