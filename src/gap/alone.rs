@@ -1,9 +1,12 @@
 //! A device on its own clock: commands in at their times, reports looked at on their grids, edges found between.
 
-use super::prediction::{Predicted, PredictedEdge};
+use std::sync::Arc;
+
+use super::prediction::{Passing, Predicted, PredictedEdge};
 use super::subject::Run;
 use super::track::Track;
-use crate::device::Device;
+use super::world::{Script, World};
+use crate::device::{Device, Role};
 
 /// Two instants nearer than this are one, s.
 const SAME_S: f64 = 1e-9;
@@ -16,34 +19,77 @@ pub(super) struct Watch<'a> {
     pub track: Option<&'a Track>,
     /// How far behind the grid's instant the state is looked at, s.
     pub lead: f64,
+    /// The beam that it reports, if it is a barrier's.
+    pub beam: Option<usize>,
 }
 
 /// A device with its clock.
 #[derive(Clone)]
 pub(super) struct Alone {
     device: Box<dyn Device>,
+    world: Option<World>,
     now: f64,
     reports: Vec<f64>,
 }
 
 impl Alone {
-    /// A device at rest at t = 0 with so many ports.
-    pub fn new(device: Box<dyn Device>, ports: usize) -> Alone {
-        Alone { device, now: 0.0, reports: vec![0.0; ports] }
+    /// A device at rest at t = 0 with so many ports, and what surrounds it.
+    pub fn new(mut device: Box<dyn Device>, ports: usize, script: &Arc<Script>) -> Alone {
+        let mut world = World::new(script);
+        if let Some(world) = &mut world {
+            world.begin(device.as_mut());
+        }
+        Alone { device, world, now: 0.0, reports: vec![0.0; ports] }
     }
 
     fn advance_to(&mut self, at: f64) {
         let span = at - self.now;
         if span > 0.0 {
-            self.device.advance(span);
+            match &mut self.world {
+                Some(world) => world.advance(&mut self.device, self.now, at),
+                None => self.device.advance(span),
+            }
             self.now = at;
         }
+    }
+
+    /// The part that changed a beam last, if the port is that beam's.
+    fn passing(&self, beam: Option<usize>) -> Option<Passing> {
+        let (part, speed) = self.world.as_ref()?.last[beam?]?;
+        Some(Passing { part, speed })
     }
 
     fn look(&mut self) -> &[f64] {
         self.device.report(&mut self.reports);
         &self.reports
     }
+}
+
+/// How far the belt of a device has gone at each of `instants`, which ascend, in a run without parts, m.
+pub(super) fn travel(mut device: Box<dyn Device>, run: &Run, instants: &[f64]) -> Vec<f64> {
+    let mut commands = run.commands.iter().map(|(port, told)| (*port, taken_up(told.at, run.command_tick), told.value));
+    let mut next = commands.next();
+    let (mut now, mut way) = (0.0, 0.0);
+    let mut go = |device: &mut Box<dyn Device>, to: f64| {
+        if to > now {
+            device.advance(to - now);
+            now = to;
+            if let Role::Carries(belt) = device.role() {
+                way += belt.displacement;
+            }
+        }
+        way
+    };
+    let mut ways = Vec::with_capacity(instants.len());
+    for instant in instants {
+        while let Some((port, at, value)) = next.filter(|(_, at, _)| at <= instant) {
+            go(&mut device, at);
+            device.command(port, value);
+            next = commands.next();
+        }
+        ways.push(go(&mut device, *instant));
+    }
+    ways
 }
 
 /// What happens next.
@@ -130,9 +176,7 @@ fn streams<'a>(run: &Run, watches: &[Watch<'a>]) -> Vec<Stream<'a>> {
     let mut streams: Vec<Stream<'a>> = Vec::new();
     for (signal, watch) in watches.iter().enumerate() {
         let Some(track) = watch.track else { continue };
-        let same = |stream: &&mut Stream<'a>| {
-            std::sync::Arc::ptr_eq(&stream.track.grid, &track.grid) && stream.lead == watch.lead
-        };
+        let same = |stream: &&mut Stream<'a>| Arc::ptr_eq(&stream.track.grid, &track.grid) && stream.lead == watch.lead;
         match streams.iter_mut().find(same) {
             Some(stream) => {
                 stream.signals.push(signal);
@@ -155,6 +199,8 @@ struct View {
     /// What it is now, and since when.
     state: f64,
     since: f64,
+    beam: Option<usize>,
+    passing: Option<Passing>,
     /// What was last shown.
     shown: Option<f64>,
     predicted: Predicted,
@@ -171,11 +217,21 @@ impl View {
         let mut alone = alone.clone();
         let state = alone.look()[watch.port];
         let first = watch.track.map_or(0, |track| track.first);
-        View { port: watch.port, first, is_edge, state, since: 0.0, shown: None, predicted }
+        View {
+            port: watch.port,
+            first,
+            is_edge,
+            state,
+            since: 0.0,
+            beam: watch.beam,
+            passing: None,
+            shown: None,
+            predicted,
+        }
     }
 
-    fn becomes(&mut self, state: f64, at: f64) {
-        (self.state, self.since) = (state, at);
+    fn becomes(&mut self, state: f64, at: f64, passing: Option<Passing>) {
+        (self.state, self.since, self.passing) = (state, at, passing);
     }
 
     /// It is looked at, at the grid's instant `index`.
@@ -190,7 +246,7 @@ impl View {
                 match self.shown {
                     None => *initial = value,
                     Some(shown) if shown != value => {
-                        edges.push(PredictedEdge { at: self.since, index, to: value, part: None });
+                        edges.push(PredictedEdge { at: self.since, index, to: value, part: self.passing });
                     }
                     Some(_) => {}
                 }
@@ -211,7 +267,7 @@ fn note_edges(views: &mut [View], before: &Alone, alone: &mut Alone) {
             middle.advance_to(0.5 * (low.now + high));
             if middle.look()[view.port] == state { high = middle.now } else { low = middle }
         }
-        view.becomes(state, high);
+        view.becomes(state, high, alone.passing(view.beam));
     }
 }
 
@@ -221,7 +277,7 @@ fn note_at_once(views: &mut [View], alone: &mut Alone) {
     for view in views.iter_mut().filter(|view| view.is_edge) {
         let state = alone.reports[view.port];
         if state != view.state {
-            view.becomes(state, alone.now);
+            view.becomes(state, alone.now, alone.passing(view.beam));
         }
     }
 }

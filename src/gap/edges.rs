@@ -101,7 +101,7 @@ mod tests {
     fn track(edges: &[(usize, f64)]) -> Track {
         let edges = edges.iter().map(|(index, to)| Edge { index: *index, to: *to }).collect();
         let grid = Arc::new(Grid::of_steps(0.02, 60.0));
-        Track { grid, first: 0, values: Vec::new(), initial: 0.0, edges, blind: Vec::new() }
+        Track { grid, first: 0, values: Vec::new(), initial: 0.0, edges, origins: Vec::new(), blind: Vec::new() }
     }
 
     fn predicted(edges: &[(f64, f64)]) -> Vec<PredictedEdge> {

@@ -5,7 +5,8 @@ use serde::Serialize;
 use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair};
 use super::floor::Floor;
-use super::prediction::{Predicted, PredictedEdge};
+use super::parts::shifted;
+use super::prediction::PredictedEdge;
 use super::track::Track;
 
 /// What a prediction costs: −2 ln of its likelihood, less that of a perfect one; smaller is better, and a difference of two is
@@ -166,9 +167,16 @@ impl SignalScore {
     }
 
     /// An edge whose `predicted` changes stand for those of its track; `sigma` is how far a sensor may be off in time, s.
-    pub(super) fn edges(place: (usize, usize), track: &Track, predicted: &[PredictedEdge], sigma: f64) -> Self {
+    /// `shifts` are those of the parts that pass.
+    pub(super) fn edges(
+        place: (usize, usize),
+        track: &Track,
+        predicted: &[PredictedEdge],
+        shifts: &[f64],
+        sigma: f64,
+    ) -> Self {
         let pairs = pair(track, predicted, sigma);
-        let kept = pairs.iter().map(|pair| edge(track, predicted, pair, sigma));
+        let kept = pairs.iter().map(|pair| edge(track, predicted, shifts, pair, sigma));
         let edges: Vec<EdgeScore> = kept.flatten().collect();
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
@@ -186,22 +194,6 @@ impl SignalScore {
             edges,
         }
     }
-
-    /// A signal in one run.
-    pub(super) fn new(
-        place: (usize, usize),
-        track: &Track,
-        predicted: &Predicted,
-        floor: Floor,
-        is_count: bool,
-        sigma: f64,
-    ) -> Option<Self> {
-        match predicted {
-            Predicted::Nothing => None,
-            Predicted::Level(values) => Some(SignalScore::level(place, track, values, floor, is_count)),
-            Predicted::Edges { edges, .. } => Some(SignalScore::edges(place, track, edges, sigma)),
-        }
-    }
 }
 
 /// How steeply a level is predicted to change about the `k`th instant of its track.
@@ -211,13 +203,19 @@ fn slope(instants: &[f64], first: usize, predicted: &[f64], k: usize) -> f64 {
     if span > 0.0 { ((predicted[high] - predicted[low]) / span).abs() } else { 0.0 }
 }
 
-/// One pair; `None` where it lies in a span without evidence.
-fn edge(track: &Track, predicted: &[PredictedEdge], pair: &Pair, sigma: f64) -> Option<EdgeScore> {
+/// One pair; `None` where it lies in a span without evidence, or is one that was played back.
+fn edge(track: &Track, predicted: &[PredictedEdge], shifts: &[f64], pair: &Pair, sigma: f64) -> Option<EdgeScore> {
     let recorded = pair.recorded.map(|at| track.edges[at]);
-    let foreseen = pair.predicted.map(|at| predicted[at]);
-    let blind = recorded.is_some_and(|edge| track.is_blind(edge.index))
-        || foreseen.is_some_and(|edge| track.is_blind(edge.index));
-    if blind {
+    let shift = pair.recorded.and_then(|at| track.part(at)).and_then(|part| shifts.get(part));
+    let foreseen = pair
+        .predicted
+        .map(|at| PredictedEdge { at: shifted(&predicted[at], shift.copied().unwrap_or(0.0)), ..predicted[at] });
+    if pair.recorded.is_some_and(|at| track.is_input(at)) {
+        return None;
+    }
+    // What was recorded decides, so that the number of residuals does not depend on the prediction.
+    let shown = recorded.map(|edge| edge.index).or(foreseen.map(|edge| edge.index));
+    if shown.is_some_and(|index| track.is_blind(index)) {
         return None;
     }
     let within = recorded.map(|edge| interval(track, edge.index));

@@ -10,6 +10,8 @@ use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
 use super::score::Score;
 use super::subject::Subject;
+use super::surroundings;
+use super::tick::{self, Vote};
 use crate::effect::EffectError;
 use crate::plant::Plant;
 
@@ -48,8 +50,15 @@ impl Study {
         let ids = TaskId::all(plant);
         let mut subjects: Vec<Subject> =
             ids.into_par_iter().map(|id| Subject::new(plant, id, recordings, &grids)).collect();
+        let mut ticks = Vec::new();
+        for (run, recording) in recordings.iter().enumerate() {
+            // Steps of ours are no tick to be found.
+            let tick = if recording.step().is_some() { 0.0 } else { find_tick(&mut subjects, run, &grids[run])? };
+            ticks.push(tick);
+        }
+        let sizes = surroundings::part_sizes(plant);
+        subjects.par_iter_mut().try_for_each(|subject| subject.surround(&sizes))?;
         let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
-        let ticks = vec![0.0; recordings.len()];
         Ok(Study { subjects, nominal, ticks, grids })
     }
 
@@ -62,6 +71,27 @@ impl Study {
     pub fn scores(&self) -> Vec<Score> {
         self.subjects.par_iter().zip(&self.nominal).map(|(subject, nominal)| subject.score(nominal)).collect()
     }
+}
+
+/// The tick of a run, which is set in all subjects.
+fn find_tick(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Result<f64, EffectError> {
+    let main = &grids[Beat::Fast as usize];
+    let ticks = if main.is_rebuilt { tick::candidates(main.cycle) } else { vec![0.0] };
+    if ticks.len() < 2 {
+        return Ok(0.0);
+    }
+    let of = |subject: &Subject| -> Result<Vec<Vote>, EffectError> {
+        let votes: Result<Vec<Option<Vote>>, _> = ticks.iter().map(|tick| tick::vote(subject, run, *tick)).collect();
+        Ok(votes?.into_iter().flatten().collect())
+    };
+    let votes = subjects.par_iter().map(of).collect::<Result<Vec<_>, _>>()?;
+    let tick = tick::elect(&ticks, &votes);
+    let at = ticks.iter().position(|candidate| *candidate == tick).unwrap_or(0);
+    for (subject, votes) in subjects.iter_mut().zip(&votes) {
+        let command_tick = tick::taken_up(subject.kind.name, tick, votes.get(at).copied());
+        subject.set_tick(run, tick, command_tick);
+    }
+    Ok(tick)
 }
 
 /// The nominal prediction of a subject, and its floors with it.

@@ -6,10 +6,14 @@ use super::alone::{self, Alone, Watch};
 use super::floor::Floor;
 use super::grid::Grid;
 use super::overrides::Overrides;
-use super::prediction::{Predicted, Prediction};
+use super::parts::likeliest_shifts;
+use super::prediction::{Predicted, PredictedEdge, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::score::{Score, SignalScore};
+use super::surroundings;
 use super::track::Track;
+use super::world::Script;
+use crate::device::Device;
 use crate::effect::{self, EffectError};
 use crate::plant::{EffectSpec, Parameters, Plant};
 use crate::prototype::kind::{KindDescriptor, PortType};
@@ -50,12 +54,21 @@ pub struct Run {
     pub floors: Vec<Floor>,
     /// How far its sensors may be off in time, s.
     pub edge_sigma: f64,
+    /// What surrounds the device: parts that pass, as far as they were recorded.
+    pub script: Arc<Script>,
     /// At equal times, whether a report already follows a command: so with steps of ours.
     pub(super) commands_first: bool,
     /// The tick at which the machine looked at its state, s; 0: none.
     pub(super) sample_tick: f64,
     /// The tick at which it took commands up, s; 0: at once.
     pub(super) command_tick: f64,
+}
+
+impl Run {
+    /// The tick at which the machine took this device's commands up, s; 0: at once.
+    pub fn command_tick(&self) -> f64 {
+        self.command_tick
+    }
 }
 
 /// A device of a plant with what the recordings say of it. May be shared between threads; every prediction builds a device
@@ -96,6 +109,7 @@ impl Subject {
                 tracks: signals.iter().map(track).collect(),
                 floors: vec![Floor { step: 1.0, noise: 0.0, timing: 0.0 }; signals.len()],
                 edge_sigma: EDGE_SIGMA_S,
+                script: Arc::default(),
                 commands_first: recording.step().is_some(),
                 sample_tick: 0.0,
                 command_tick: 0.0,
@@ -120,36 +134,56 @@ impl Subject {
     /// # Errors
     /// Effects or parameters that do not fit the device, or that are out of their ranges.
     pub fn predict(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Prediction, EffectError> {
-        let all: Vec<EffectSpec> = self.effects.iter().chain(effects).cloned().chain(overrides.effects()).collect();
-        let mut device = effect::build(self.kind, &self.parameters, &self.instance, &all, 0)?;
-        device.count_finely();
-        for port in &self.commanded {
-            device.command(*port, 0.0);
-        }
+        let device = self.device(effects, overrides)?;
         let run = |run: &Run| {
-            let watches: Vec<Watch<'_>> = self
-                .signals
-                .iter()
-                .zip(&run.tracks)
-                .map(|(info, track)| Watch { port: info.port, track: track.as_ref(), lead: self.lead(info, run) })
-                .collect();
-            alone::run(Alone::new(device.boxed(), self.kind.ports.len()), run, &watches)
+            let watch = |(info, track)| self.watch(info, track, run);
+            let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
+            alone::run(Alone::new(device.boxed(), self.kind.ports.len(), &run.script), run, &watches)
         };
         Ok(Prediction { runs: self.runs.iter().map(run).collect() })
+    }
+
+    fn watch<'a>(&self, info: &SignalInfo, track: &'a Option<Track>, run: &Run) -> Watch<'a> {
+        Watch { port: info.port, track: track.as_ref(), lead: self.lead(info, run), beam: beam_of(info) }
     }
 
     /// Compares a prediction of this subject with what was recorded.
     pub fn score(&self, prediction: &Prediction) -> Score {
         let mut scores = Vec::new();
-        for (signal, info) in self.signals.iter().enumerate() {
-            for (at, (run, predicted)) in self.runs.iter().zip(&prediction.runs).enumerate() {
+        for (at, (run, predicted)) in self.runs.iter().zip(&prediction.runs).enumerate() {
+            let shifts = self.shifts(run, predicted);
+            for (signal, info) in self.signals.iter().enumerate() {
                 let Some(track) = &run.tracks[signal] else { continue };
-                let floor = run.floors[signal];
-                let sigma = run.edge_sigma;
-                scores.extend(SignalScore::new((signal, at), track, &predicted[signal], floor, info.is_count, sigma));
+                scores.extend(match &predicted[signal] {
+                    Predicted::Nothing => None,
+                    Predicted::Level(values) => {
+                        let floor = run.floors[signal];
+                        Some(SignalScore::level((signal, at), track, values, floor, info.is_count))
+                    }
+                    Predicted::Edges { edges, .. } => {
+                        Some(SignalScore::edges((signal, at), track, edges, &shifts, run.edge_sigma))
+                    }
+                });
             }
         }
+        scores.sort_by_key(|score| (score.signal, score.run));
         Score::of(scores)
+    }
+
+    /// How much further each part of a run was than its first edge said, m: see [`super::parts`].
+    fn shifts(&self, run: &Run, predicted: &[Predicted]) -> Vec<f64> {
+        let barriers: Vec<(&Track, &[PredictedEdge])> = run
+            .tracks
+            .iter()
+            .zip(predicted)
+            .filter_map(|(track, predicted)| match (track, predicted) {
+                (Some(track), Predicted::Edges { edges, .. }) if !track.origins.is_empty() => {
+                    Some((track, edges.as_slice()))
+                }
+                _ => None,
+            })
+            .collect();
+        likeliest_shifts(&barriers, run.edge_sigma)
     }
 
     /// How far two predictions lie apart in units of the noise, as residuals of least squares: of a level sample by sample,
@@ -163,6 +197,38 @@ impl Subject {
             }
         }
         residuals
+    }
+
+    /// The device as the model has it, with `effects` beside its own.
+    fn device(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Box<dyn Device>, EffectError> {
+        let own = self.effects.iter().chain(effects).cloned();
+        let all: Vec<EffectSpec> = own.chain(overrides.effects()).collect();
+        let mut device = effect::build(self.kind, &self.parameters, &self.instance, &all, 0)?;
+        device.count_finely();
+        for port in &self.commanded {
+            device.command(*port, 0.0);
+        }
+        Ok(device)
+    }
+
+    /// Finds out what surrounded the device in each run: see [`surroundings`].
+    pub(super) fn surround(&mut self, sizes: &[[f64; 2]]) -> Result<(), EffectError> {
+        let device = self.device(&[], &Overrides::none())?;
+        for run in &mut self.runs {
+            surroundings::surround(self.kind, &self.parameters, &self.signals, device.as_ref(), sizes, run);
+        }
+        Ok(())
+    }
+
+    /// The same device in one of its runs.
+    pub fn only(&self, run: usize) -> Subject {
+        Subject { runs: vec![self.runs[run].clone()], ..self.clone() }
+    }
+
+    /// Sets the ticks of a run, s: that at which the machine looked at the device, and that at which it took commands up.
+    pub(super) fn set_tick(&mut self, run: usize, sample_tick: f64, command_tick: f64) {
+        let run = &mut self.runs[run];
+        (run.sample_tick, run.command_tick) = (sample_tick, command_tick);
     }
 
     /// Finds the floors of all levels from the recordings and a prediction, which may be wrong: what it gets wrong is slow
@@ -188,6 +254,15 @@ impl Subject {
     fn lead(&self, info: &SignalInfo, run: &Run) -> f64 {
         let is_force = self.kind.name == "kinetwin.ServoAxis" && info.property == "force";
         if is_force { 0.5 * run.sample_tick } else { 0.0 }
+    }
+}
+
+/// The beam that a signal reports.
+pub(super) fn beam_of(info: &SignalInfo) -> Option<usize> {
+    match info.property.as_str() {
+        "lightBarrierA" | "lightbarrierA" => Some(0),
+        "lightBarrierB" | "lightbarrierB" => Some(1),
+        _ => None,
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::grid::Grid;
+use super::parts::Origin;
 use super::recording::{Recording, Stamped};
 
 /// What one recording says of one signal.
@@ -18,6 +19,8 @@ pub struct Track {
     pub initial: f64,
     /// Of an edge: its changes after that.
     pub edges: Vec<Edge>,
+    /// Of a barrier that parts pass: what each of the edges is to a score. Empty of every other signal, whose edges all count.
+    pub origins: Vec<Origin>,
     /// From which instants on (index into the grid) nothing counts, and until which; ascending.
     pub blind: Vec<(usize, usize)>,
 }
@@ -75,12 +78,25 @@ impl Track {
         let at = |instant: f64| grid.instants.partition_point(|at| *at < instant);
         let blind = recording.blind.iter().map(|span| (at(span.from), at(span.to))).collect();
         let grid = grid.clone();
-        Some(Track { grid, first, values: Vec::new(), initial: 0.0, edges: Vec::new(), blind })
+        Some(Track { grid, first, values: Vec::new(), initial: 0.0, edges: Vec::new(), origins: Vec::new(), blind })
     }
 
     /// Whether an instant of the grid is no evidence.
     pub fn is_blind(&self, index: usize) -> bool {
         self.blind.iter().any(|(from, to)| (*from..=*to).contains(&index))
+    }
+
+    /// The part that made an edge, if it is known.
+    pub fn part(&self, edge: usize) -> Option<usize> {
+        match self.origins.get(edge) {
+            Some(Origin::Part(part)) => Some(*part),
+            _ => None,
+        }
+    }
+
+    /// Whether an edge was played back, so that nothing is learnt from it.
+    pub fn is_input(&self, edge: usize) -> bool {
+        self.origins.get(edge) == Some(&Origin::Input)
     }
 
     /// From when to when something was recorded, s.

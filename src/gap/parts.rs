@@ -1,0 +1,282 @@
+//! Which part made which edge of a belt's barriers, and where each of them really was.
+//!
+//! A part that barrier A saw is expected at barrier B when the belt has gone the way between them: one that comes near that is
+//! the same part. Where it exactly was when A saw it is latent, within what the belt goes in a reporting cycle and whatever a
+//! sensor adds: it is where all edges of the part together are likeliest. So no edge of a belt is compared with one that it
+//! inherited from the belt before.
+
+use super::edges::{interval_cost, pair};
+use super::prediction::PredictedEdge;
+use super::track::Track;
+use super::world::{Cut, Script, Surrounding, Told};
+
+/// What of a belt's geometry its barriers see.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Geometry {
+    /// Where the beams are, m along the belt from its start.
+    pub beams: [Option<f64>; 2],
+    /// How long the parts of this plant cut a beam, m of the belt's way, in any position that they stand in.
+    pub lengths: Vec<f64>,
+}
+
+/// How far from where it is expected a part may be seen, m, and as a share of its way.
+const GATE_M: f64 = 0.08;
+const GATE: f64 = 0.08;
+/// How far from a known length a part may have cut a beam, as a share.
+const LENGTH_GATE: f64 = 0.12;
+/// And how far, m, where the part's other cut fits.
+const LENGTH_GATE_M: f64 = 0.1;
+/// Which share of the parts of one barrier must reach the other for one that does not to be missed.
+const RELIABLE: f64 = 0.8;
+/// How far a part may be from where its first edge says, m.
+const LATENT_M: f64 = 0.25;
+
+/// What an edge of a barrier is to a score.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// It is predicted from other edges of its part.
+    Part(usize),
+    /// Nothing predicts it: it was played back.
+    Input,
+}
+
+/// An interval in which a beam was cut, in terms of its track's edges.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    beam: usize,
+    rise: usize,
+    fall: Option<usize>,
+    /// The belt's way at its rise and its fall, m, in the direction in which the belt ran.
+    start: f64,
+    end: f64,
+    /// Instants, s: the middles of the cycles.
+    from: f64,
+    to: f64,
+    way: f64,
+    length: Option<f64>,
+    part: Option<usize>,
+}
+
+impl Seen {
+    /// How far the belt went while the beam was cut, m.
+    fn measured(&self) -> f64 {
+        (self.end - self.start).abs()
+    }
+}
+
+/// What the barriers of a belt saw, as a script and as the origins of their edges. `travel` gives the belt's nominal way at an
+/// instant, m; `tracks` are those of barriers A and B.
+pub(super) fn assign(
+    geometry: &Geometry,
+    tracks: [Option<&Track>; 2],
+    travel: &dyn Fn(f64) -> f64,
+) -> (Script, [Vec<Origin>; 2]) {
+    let mut seen: Vec<Seen> = Vec::new();
+    let mut origins = tracks.map(|track| vec![Origin::Input; track.map_or(0, |track| track.edges.len())]);
+    let mut script = Script::default();
+    for (beam, track) in tracks.iter().enumerate() {
+        let Some(track) = track else { continue };
+        seen.extend(cuts(geometry, beam, track, travel));
+        play_initial(beam, track, &mut script);
+    }
+    seen.sort_by(|a, b| a.from.total_cmp(&b.from));
+    let parts = name_parts(geometry, &mut seen);
+    let reliable = is_reliable(&seen, parts);
+    for (at, cut) in seen.iter().enumerate() {
+        script_of(geometry, &seen, at, reliable, &mut script);
+        if let Some(part) = cut.part {
+            origins[cut.beam][cut.rise] = Origin::Part(part);
+            if let Some(fall) = cut.fall.filter(|_| cut.length.is_some()) {
+                origins[cut.beam][fall] = Origin::Part(part);
+            }
+        }
+    }
+    script.cuts.sort_by(|a, b| a.from.total_cmp(&b.from));
+    script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
+    (script, origins)
+}
+
+/// The middle of the cycle in which an edge came, s.
+pub(super) fn middle(track: &Track, index: usize) -> f64 {
+    let (before, seen) = super::edges::interval(track, index);
+    0.5 * (before + seen)
+}
+
+/// What stood in the beam from the start leaves it as it was recorded.
+fn play_initial(beam: usize, track: &Track, script: &mut Script) {
+    let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
+    if track.initial != 0.0 {
+        script.told.push(Told { at: 0.0, what, is_on: true });
+        if let Some(first) = track.edges.first() {
+            script.told.push(Told { at: middle(track, first.index), what, is_on: false });
+        }
+    }
+}
+
+fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) -> f64) -> Vec<Seen> {
+    let mut cuts = Vec::new();
+    for (rise, edge) in track.edges.iter().enumerate().filter(|(_, edge)| edge.to != 0.0) {
+        let fall = track.edges.get(rise + 1).map(|_| rise + 1);
+        let from = middle(track, edge.index);
+        let to = fall.map_or(f64::INFINITY, |fall| middle(track, track.edges[fall].index));
+        let start = travel(from);
+        let end = if fall.is_some() { travel(to) } else { start };
+        // At the instant of the rise the belt may stand already: which way it came from counts.
+        let before = travel(from - 2.0 * track.grid.cycle.max(0.01));
+        let way = if end - before < 0.0 { -1.0 } else { 1.0 };
+        let is_seen = geometry.beams[beam].is_some();
+        if is_seen {
+            cuts.push(Seen { beam, rise, fall, start, end, from, to, way, length: None, part: None });
+        }
+    }
+    cuts
+}
+
+/// Gives every cut its part; returns how many there are.
+fn name_parts(geometry: &Geometry, seen: &mut [Seen]) -> usize {
+    let mut parts = 0;
+    for at in 0..seen.len() {
+        if seen[at].part.is_none() {
+            seen[at].part = Some(parts);
+            parts += 1;
+        }
+        let first = seen[at];
+        let second = 1 - first.beam;
+        let Some(between) = distance(geometry, first.beam, first.way).filter(|way| *way > 0.0) else { continue };
+        let expected = first.start + first.way * between;
+        let gate = GATE_M + GATE * between;
+        let comes = |cut: &Seen| {
+            cut.beam == second
+                && cut.part.is_none()
+                && cut.from > first.from
+                && cut.way == first.way
+                && (cut.start - expected).abs() <= gate
+        };
+        let nearest = (at + 1..seen.len())
+            .filter(|&other| comes(&seen[other]))
+            .min_by(|a, b| (seen[*a].start - expected).abs().total_cmp(&(seen[*b].start - expected).abs()));
+        if let Some(other) = nearest {
+            seen[other].part = first.part;
+        }
+    }
+    give_lengths(geometry, seen, parts);
+    parts
+}
+
+/// Gives every part the length that its cuts fit best: one for both barriers, so that a barrier that is late at one edge shows.
+fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize) {
+    let mut best: Vec<Option<(f64, f64)>> = vec![None; parts];
+    for cut in seen.iter().filter(|cut| cut.fall.is_some()) {
+        let Some(best) = cut.part.and_then(|part| best.get_mut(part)) else { continue };
+        for length in &geometry.lengths {
+            let off = (length - cut.measured()).abs();
+            if off <= LENGTH_GATE * length && best.is_none_or(|(least, _)| off < least) {
+                *best = Some((off, *length));
+            }
+        }
+    }
+    for cut in seen.iter_mut().filter(|cut| cut.fall.is_some()) {
+        let length = cut.part.and_then(|part| best[part]).map(|(_, length)| length);
+        cut.length = length.filter(|length| (length - cut.measured()).abs() <= LENGTH_GATE_M.max(LENGTH_GATE * length));
+    }
+}
+
+/// How far it is from one beam to the other, the way the belt runs.
+fn distance(geometry: &Geometry, beam: usize, way: f64) -> Option<f64> {
+    let [Some(a), Some(b)] = geometry.beams else { return None };
+    Some(if beam == 0 { way * (b - a) } else { way * (a - b) })
+}
+
+/// Whether what passes the first beam reaches the second.
+fn is_reliable(seen: &[Seen], parts: usize) -> bool {
+    let mut beams = vec![0; parts];
+    seen.iter().for_each(|cut| beams[cut.part.unwrap_or(0)] += 1);
+    let both = beams.iter().filter(|count| **count == 2).count();
+    both as f64 >= RELIABLE * parts as f64 && both >= 3
+}
+
+/// What one cut is in the script: moved with the belt from the part's first edge, or played back.
+fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, script: &mut Script) {
+    let cut = seen[at];
+    let Some(part) = cut.part else { return };
+    let first = seen[..at].iter().find(|other| other.part == cut.part).copied().unwrap_or(cut);
+    let ahead = if first.beam == cut.beam { 0.0 } else { (cut.start - first.start).abs() };
+    let ahead = match distance(geometry, first.beam, first.way) {
+        Some(between) if first.beam != cut.beam => between,
+        _ => ahead,
+    };
+    let taken = if cut.length.is_some() { None } else { Some(cut.to).filter(|to| to.is_finite()) };
+    let length = cut.length.unwrap_or(1e3);
+    script.cuts.push(Cut { part, beam: cut.beam, from: first.from, ahead, way: first.way, length, taken });
+    // One that should have come to the other beam and did not is missed there.
+    let is_alone = !seen.iter().enumerate().any(|(other, of)| other != at && of.part == cut.part);
+    if let (true, true, Some(length), Some(between)) =
+        (is_alone, reliable, cut.length, distance(geometry, cut.beam, cut.way))
+        && between > 0.0
+    {
+        let beam = 1 - cut.beam;
+        script.cuts.push(Cut { part, beam, from: cut.from, ahead: between, way: cut.way, length, taken: None });
+    }
+}
+
+/// An edge of a part, recorded and predicted.
+#[derive(Clone, Copy, Debug)]
+struct PartEdge<'a> {
+    track: &'a Track,
+    /// The grid's instant that showed it.
+    index: usize,
+    predicted: PredictedEdge,
+}
+
+/// How much further each part was than its first edge said, m, given the tracks of the barriers and what is predicted of
+/// them; `sigma` is how far a sensor may be off in time, s.
+pub(super) fn likeliest_shifts(barriers: &[(&Track, &[PredictedEdge])], sigma: f64) -> Vec<f64> {
+    let mut of_part: Vec<Vec<PartEdge<'_>>> = Vec::new();
+    for (track, predicted) in barriers {
+        for pair in pair(track, predicted, sigma) {
+            let (Some(recorded), Some(foreseen)) = (pair.recorded, pair.predicted) else { continue };
+            let Some(part) = track.part(recorded) else { continue };
+            if of_part.len() <= part {
+                of_part.resize(part + 1, Vec::new());
+            }
+            let index = track.edges[recorded].index;
+            of_part[part].push(PartEdge { track, index, predicted: predicted[foreseen] });
+        }
+    }
+    of_part.iter().map(|edges| likeliest_shift(edges, sigma)).collect()
+}
+
+/// How much further a part was than its first edge said, m: where its edges together cost least.
+fn likeliest_shift(edges: &[PartEdge<'_>], sigma: f64) -> f64 {
+    let cost = |shift: f64| -> f64 {
+        let edge = |edge: &PartEdge<'_>| interval_cost(edge.track, edge.index, shifted(&edge.predicted, shift), sigma);
+        edges.iter().map(edge).sum::<f64>() + 1e-6 * shift * shift
+    };
+    // Every edge's own best, and the ends of what it allows.
+    let mut best = (cost(0.0), 0.0);
+    let mut step: f64 = 0.0;
+    for edge in edges {
+        let Some(passing) = edge.predicted.part else { continue };
+        let (before, seen) = super::edges::interval(edge.track, edge.index);
+        for share in [0.02, 0.25, 0.5, 0.75, 0.98] {
+            let wanted = before + share * (seen - before);
+            let shift = ((edge.predicted.at - wanted) * passing.speed).clamp(-LATENT_M, LATENT_M);
+            best = if cost(shift) < best.0 { (cost(shift), shift) } else { best };
+            step = step.max(0.25 * (seen - before) * passing.speed);
+        }
+    }
+    // Then halved in on.
+    for _ in 0..16 {
+        for shift in [best.1 - step, best.1 + step] {
+            best = if cost(shift) < best.0 { (cost(shift), shift) } else { best };
+        }
+        step *= 0.6;
+    }
+    best.1
+}
+
+/// When an edge comes of a part that is further by `shift`, s.
+pub(super) fn shifted(edge: &PredictedEdge, shift: f64) -> f64 {
+    const SLOWEST: f64 = 1e-3;
+    edge.part.map_or(edge.at, |passing| edge.at - shift / passing.speed.max(SLOWEST))
+}

@@ -1,0 +1,134 @@
+//! What surrounded a device in a run, from what was recorded of it.
+//!
+//! - A belt: the parts that its barriers saw (see [`super::parts`]).
+//! - A pusher: its beams as they were recorded. Parts come to it and go by the belts, which nobody asks here.
+//! - A gripper: a part is sealed at its cups in those spans of suction in which vacuum came. That it never came is no evidence
+//!   that the gripper is at fault: there may have been nothing to grip.
+
+use std::sync::Arc;
+
+use super::alone;
+use super::parts::{self, Geometry, Origin};
+use super::subject::{Run, SignalInfo, beam_of};
+use super::track::Track;
+use super::world::{Script, Surrounding, Told};
+use crate::device::{Device, Role, Surface};
+use crate::plant::{ParameterValue, Parameters, Plant};
+use crate::prototype::kind::KindDescriptor;
+
+/// Length and width of every part that may come in this plant, m.
+pub(super) fn part_sizes(plant: &Plant) -> Vec<[f64; 2]> {
+    let tasks = plant.instances.iter().flat_map(|instance| &instance.tasks);
+    let bays = tasks.filter(|task| task.kind.name == "kinetwin.LoadingBay");
+    let named = bays.flat_map(|task| ["size", "loadSize"].map(|name| task.parameters.0.get(name)));
+    let made = named.flatten().filter_map(|parameter| match &parameter.value {
+        ParameterValue::Numbers(numbers) if numbers.len() == 3 => Some([numbers[0], numbers[1]]),
+        _ => None,
+    });
+    let standing = plant.parts.iter().map(|part| [part.size[0], part.size[1]]);
+    let mut sizes: Vec<[f64; 2]> = made.chain(standing).filter(|size| size[0] > 0.0).collect();
+    sizes.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    sizes.dedup();
+    sizes
+}
+
+/// Sets a run's script, and what the edges of its barriers are to a score.
+pub(super) fn surround(
+    kind: &KindDescriptor,
+    parameters: &Parameters,
+    signals: &[SignalInfo],
+    device: &dyn Device,
+    sizes: &[[f64; 2]],
+    run: &mut Run,
+) {
+    let script = match device.role() {
+        Role::Carries(belt) => {
+            let geometry = Geometry { beams: belt.barriers, lengths: lengths(&belt.surface, sizes) };
+            of_belt(&geometry, signals, device, run)
+        }
+        Role::Pushes(_) => of_pusher(signals, run),
+        Role::Holds(cups) if !cups.always_sealed => of_gripper(kind, parameters, signals, run),
+        _ => return,
+    };
+    run.script = Arc::new(script);
+}
+
+/// How long parts cut a beam that lies across a belt, m of its way: by their length or by their width.
+fn lengths(surface: &Surface, sizes: &[[f64; 2]]) -> Vec<f64> {
+    let along = |[length, width]: [f64; 2]| match *surface {
+        Surface::Straight { .. } => length,
+        // Its front's inner corner meets the beam first, its rear's leaves it last.
+        Surface::Curve { radius, .. } => 2.0 * radius * (0.5 * length).atan2(radius - 0.5 * width),
+    };
+    let mut lengths: Vec<f64> = sizes.iter().flat_map(|&[a, b]| [along([a, b]), along([b, a])]).collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    lengths
+}
+
+/// The places of the barriers among the signals.
+fn barriers(signals: &[SignalInfo]) -> [Option<usize>; 2] {
+    [0, 1].map(|beam| signals.iter().position(|info| beam_of(info) == Some(beam)))
+}
+
+fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run: &mut Run) -> Script {
+    let places = barriers(signals);
+    let tracks: [Option<&Track>; 2] = places.map(|place| run.tracks[place?].as_ref());
+    let Some(grid) = tracks.iter().flatten().next().map(|track| track.grid.clone()) else {
+        return Script::default();
+    };
+    let ways = alone::travel(device.boxed(), run, &grid.instants);
+    let travel = |at: f64| {
+        let after = grid.instants.partition_point(|instant| *instant <= at).clamp(1, ways.len().max(2) - 1);
+        match (ways.get(after - 1), ways.get(after)) {
+            (Some(low), Some(high)) => {
+                let span = grid.instants[after] - grid.instants[after - 1];
+                low + (high - low) * ((at - grid.instants[after - 1]) / span).clamp(0.0, 1.0)
+            }
+            _ => 0.0,
+        }
+    };
+    let (script, origins) = parts::assign(geometry, tracks, &travel);
+    for (place, origins) in places.into_iter().zip(origins) {
+        if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
+            track.origins = origins;
+        }
+    }
+    script
+}
+
+fn of_pusher(signals: &[SignalInfo], run: &mut Run) -> Script {
+    let mut script = Script::default();
+    for (beam, place) in barriers(signals).into_iter().enumerate() {
+        let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) else { continue };
+        let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
+        script.told.push(Told { at: 0.0, what, is_on: track.initial != 0.0 });
+        for edge in &track.edges {
+            script.told.push(Told { at: parts::middle(track, edge.index), what, is_on: edge.to != 0.0 });
+        }
+        track.origins = vec![Origin::Input; track.edges.len()];
+    }
+    script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
+    script
+}
+
+fn of_gripper(kind: &KindDescriptor, parameters: &Parameters, signals: &[SignalInfo], run: &mut Run) -> Script {
+    let mut script = Script::default();
+    let vacuum = signals.iter().position(|info| info.property == "vacuumOn");
+    let Some(track) = vacuum.and_then(|place| run.tracks[place].as_ref()) else { return script };
+    let came: Vec<f64> =
+        track.edges.iter().filter(|edge| edge.to != 0.0).map(|edge| track.grid.instants[edge.index]).collect();
+    let suction = kind.port("suctionOn");
+    let drawn = run.commands.iter().filter(|(port, _)| Some(*port) == suction);
+    let changes: Vec<(f64, bool)> = drawn.map(|(_, told)| (told.at, told.value != 0.0)).collect();
+    for (at, (from, is_on)) in changes.iter().enumerate() {
+        let until = changes.get(at + 1).map_or(f64::INFINITY, |next| next.0);
+        // A late report of it still belongs to this span.
+        let until = until + parameters.number("releaseTime");
+        let came_now = *is_on && came.iter().any(|came| came > from && *came <= until);
+        if *is_on {
+            script.told.push(Told { at: *from, what: Surrounding::Sealed, is_on: came_now });
+        }
+    }
+    script
+}

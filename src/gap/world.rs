@@ -1,0 +1,212 @@
+//! What surrounds a device that stands alone: the parts that pass it.
+//!
+//! Nobody recorded where parts are; what was recorded is when they cut a beam. The first barrier that sees a part is an input:
+//! from there on the part moves with the belt of the model, and its next edges are predicted. Whatever cannot be predicted
+//! from this device and its own edges (a box that a robot set down, one that a pusher took away in the middle of a beam) is
+//! played back as it was recorded.
+
+use std::sync::Arc;
+
+use crate::device::{Device, Role, Surroundings};
+
+/// What a run does to a device from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Script {
+    /// Of a belt: every cut of a beam, in the order in which they begin to matter.
+    pub cuts: Vec<Cut>,
+    /// Beams and seals as they were recorded, in the order of time.
+    pub told: Vec<Told>,
+}
+
+/// A beam or a seal is told to be so from now on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Told {
+    pub at: f64,
+    pub what: Surrounding,
+    pub is_on: bool,
+}
+
+/// What can be told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surrounding {
+    BarrierA,
+    BarrierB,
+    Sealed,
+}
+
+/// A part passes a beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// Which part, of all that the belt's barriers saw.
+    pub part: usize,
+    /// 0: barrier A; 1: barrier B.
+    pub beam: usize,
+    /// From when on the part moves with the belt, s: its first edge.
+    pub from: f64,
+    /// How far its front is from the beam then, m of the belt's way.
+    pub ahead: f64,
+    /// Which way the belt runs: 1 or -1.
+    pub way: f64,
+    /// How long it is along the belt, m.
+    pub length: f64,
+    /// When it leaves the beam by other hands than the belt's, s; nothing if the belt carries it out.
+    pub taken: Option<f64>,
+}
+
+/// How far behind a beam a part is forgotten, m.
+const GONE_M: f64 = 0.05;
+/// How often the instant of a crossing is halved.
+const HALVINGS: u32 = 30;
+
+/// A script being played.
+#[derive(Clone, Debug)]
+pub(super) struct World {
+    script: Arc<Script>,
+    next_cut: usize,
+    next_told: usize,
+    /// The cuts that matter now, each with the belt's way at its start.
+    active: Vec<(Cut, f64)>,
+    /// How far the belt has carried since the start, m.
+    way: f64,
+    told: Surroundings,
+    beams: [bool; 2],
+    /// The part that changed each beam last, and the belt's speed then, m/s.
+    pub last: [Option<(usize, f64)>; 2],
+}
+
+impl World {
+    /// The world at t = 0; `None` where nothing passes.
+    pub fn new(script: &Arc<Script>) -> Option<World> {
+        let is_empty = script.cuts.is_empty() && script.told.is_empty();
+        (!is_empty).then(|| World {
+            script: script.clone(),
+            next_cut: 0,
+            next_told: 0,
+            active: Vec::new(),
+            way: 0.0,
+            told: Surroundings::default(),
+            beams: [false; 2],
+            last: [None; 2],
+        })
+    }
+
+    /// Shows the device what is so at t = 0.
+    pub fn begin(&mut self, device: &mut dyn Device) {
+        self.read(device, 0.0);
+    }
+
+    /// When the script goes on by itself.
+    fn next(&self) -> Option<f64> {
+        let cut = self.script.cuts.get(self.next_cut).map(|cut| cut.from);
+        let told = self.script.told.get(self.next_told).map(|told| told.at);
+        let taken = self.active.iter().filter_map(|(cut, _)| cut.taken).min_by(f64::total_cmp);
+        [cut, told, taken].into_iter().flatten().min_by(f64::total_cmp)
+    }
+
+    /// Moves a device and the parts on it to `until`, from `now`; it sees every change of a beam at its instant.
+    pub fn advance(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) {
+        while now < until {
+            let stop = self.next().filter(|at| *at > now).map_or(until, |at| at.min(until));
+            now = self.stretch(device, now, stop);
+            self.read(device.as_mut(), now);
+        }
+    }
+
+    /// Moves on to `until`, or to the first crossing of a beam; returns the instant.
+    fn stretch(&mut self, device: &mut Box<dyn Device>, now: f64, until: f64) -> f64 {
+        if self.active.is_empty() {
+            self.way += moved(device.as_mut(), until - now);
+            return until;
+        }
+        let (start, way) = (device.clone(), self.way);
+        self.way = way + moved(device.as_mut(), until - now);
+        if self.cut() == self.beams {
+            return until;
+        }
+        let (mut low, mut high) = (0.0, until - now);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let mut tried = start.clone();
+            self.way = way + moved(tried.as_mut(), middle);
+            if self.cut() == self.beams { low = middle } else { high = middle }
+        }
+        *device = start;
+        self.way = way + moved(device.as_mut(), high);
+        self.crossed(device.as_mut());
+        now + high
+    }
+
+    /// Reads on in the script up to `now`, and shows the device what has changed.
+    fn read(&mut self, device: &mut dyn Device, now: f64) {
+        let mut news = false;
+        while let Some(cut) = self.script.cuts.get(self.next_cut).filter(|cut| cut.from <= now) {
+            self.active.push((*cut, self.way));
+            self.next_cut += 1;
+            news = true;
+        }
+        while let Some(told) = self.script.told.get(self.next_told).filter(|told| told.at <= now) {
+            match told.what {
+                Surrounding::BarrierA => self.told.barrier_a = told.is_on,
+                Surrounding::BarrierB => self.told.barrier_b = told.is_on,
+                Surrounding::Sealed => self.told.sealed = told.is_on,
+            }
+            self.next_told += 1;
+            news = true;
+        }
+        let before = self.active.len();
+        let way = self.way;
+        self.active.retain(|(cut, from)| {
+            let progress = cut.way * (way - from);
+            cut.taken.is_none_or(|taken| taken > now) && progress < cut.ahead + cut.length + GONE_M
+        });
+        if news || before != self.active.len() {
+            self.crossed(device);
+        }
+    }
+
+    /// The beams as they are now.
+    fn cut(&self) -> [bool; 2] {
+        let mut beams = [self.told.barrier_a, self.told.barrier_b];
+        for (cut, from) in &self.active {
+            let progress = cut.way * (self.way - from) - cut.ahead;
+            beams[cut.beam] |= progress > 0.0 && progress < cut.length;
+        }
+        beams
+    }
+
+    fn crossed(&mut self, device: &mut dyn Device) {
+        let beams = self.cut();
+        let speed = match device.role() {
+            Role::Carries(belt) => belt.velocity.abs(),
+            _ => 0.0,
+        };
+        for (beam, is_cut) in beams.into_iter().enumerate() {
+            if is_cut != self.beams[beam] {
+                // The part that is nearest to an edge of its own at that beam.
+                let near = |(cut, from): &(Cut, f64)| {
+                    let progress = cut.way * (self.way - from) - cut.ahead;
+                    (progress.abs().min((progress - cut.length).abs()), cut.part)
+                };
+                let here = self.active.iter().filter(|(cut, _)| cut.beam == beam).map(near);
+                let nearest = here.min_by(|a, b| a.0.total_cmp(&b.0));
+                self.last[beam] = nearest.map(|(_, part)| (part, speed));
+            }
+        }
+        self.beams = beams;
+        let mut parts: Vec<usize> = self.active.iter().map(|(cut, _)| cut.part).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        let [barrier_a, barrier_b] = beams;
+        let sealed = self.told.sealed;
+        device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts: parts.len() as u32, queued: 0 });
+    }
+}
+
+/// Moves a device, and returns how far its belt carried, m.
+fn moved(device: &mut dyn Device, seconds: f64) -> f64 {
+    device.advance(seconds);
+    match device.role() {
+        Role::Carries(belt) => belt.displacement,
+        _ => 0.0,
+    }
+}
