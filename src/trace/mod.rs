@@ -22,10 +22,15 @@
 //! of a run know into one trace. Readers and writers are handed in: no file is opened here.
 
 mod cut;
+mod excitation;
+pub mod export;
 mod header;
+pub mod import;
 mod info;
+mod motion;
 mod reader;
 mod recorder;
+mod rhythm;
 mod seconds;
 mod writer;
 
@@ -33,8 +38,10 @@ mod writer;
 mod tests;
 
 pub use cut::{CutError, Span, cut};
+pub use excitation::{Excitation, excitations};
 pub use header::{Header, Source};
-pub use info::{Info, SignalInfo, info};
+pub use info::{Info, SignalInfo, Silence, info};
+pub use motion::{Motion, motions};
 pub use reader::{Body, LINE_LIMIT, Line, Reader, Sender, Torn, TraceError};
 pub use recorder::{Record, Recorder};
 pub use writer::{Compression, Writer};

@@ -21,18 +21,23 @@ pub(super) fn write_seconds(out: &mut String, at: Instant) {
 
 /// Reads a JSON number as seconds, rounded to the nearest nanosecond; `None` where the clock does not reach.
 pub(super) fn read_seconds(number: &str) -> Option<Instant> {
+    read_time(number, DIGITS)
+}
+
+/// The same of a number in a unit that has a nanosecond at its decimal number `decimals`: 9 for seconds, 6 for
+/// milliseconds.
+pub(super) fn read_time(number: &str, decimals: usize) -> Option<Instant> {
     if number.contains(['e', 'E']) {
-        let seconds: f64 = number.parse().ok()?;
-        let in_reach = seconds.abs() < i64::MAX as f64 / 1e9;
-        return in_reach.then(|| Instant::from_seconds(seconds));
+        let nanoseconds: f64 = number.parse::<f64>().ok()? * 10f64.powi(decimals as i32);
+        return (nanoseconds.abs() < i64::MAX as f64).then(|| Instant::from_nanos(nanoseconds.round() as i64));
     }
     let (negative, digits) = number.strip_prefix('-').map_or((false, number), |digits| (true, digits));
     let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
     let whole: i64 = whole.parse().ok()?;
-    let kept = &part[..part.len().min(DIGITS)];
-    let part_ns: i64 = format!("{kept:0<9}").parse().ok()?;
-    let rounds_up = part.as_bytes().get(DIGITS).is_some_and(|digit| *digit >= b'5');
-    let ns = whole.checked_mul(1_000_000_000)?.checked_add(part_ns + i64::from(rounds_up))?;
+    let kept = &part[..part.len().min(decimals)];
+    let part_ns: i64 = format!("0{kept:0<decimals$}").parse().ok()?;
+    let rounds_up = part.as_bytes().get(decimals).is_some_and(|digit| *digit >= b'5');
+    let ns = whole.checked_mul(10_i64.pow(decimals as u32))?.checked_add(part_ns + i64::from(rounds_up))?;
     Some(Instant::from_nanos(if negative { -ns } else { ns }))
 }
 
@@ -59,6 +64,20 @@ mod tests {
         check("9223372036.854775808", None);
         check("1e300", None);
         check("99999999999999999999", None);
+    }
+
+    #[test]
+    fn other_units_are_exact_too() {
+        let check = |number: &str, decimals: usize, ns: Option<i64>| {
+            assert_eq!(read_time(number, decimals).map(Instant::nanos), ns, "{number}");
+        };
+        check("20.08", 6, Some(20_080_000));
+        check("1", 6, Some(1_000_000));
+        check("1700000000000001", 3, Some(1_700_000_000_000_001_000));
+        check("17", 0, Some(17));
+        check("17.5", 0, Some(18));
+        check("2e3", 3, Some(2_000_000));
+        check("9300000000000000", 3, None);
     }
 
     proptest! {

@@ -231,7 +231,7 @@ fn info_counts_what_stands_in_a_trace() {
     );
     let info = info(reader(text.as_bytes()).expect("a trace")).expect("counted");
     assert_eq!((info.lines, info.begins_s, info.ends_s), (3, 0.5, 2.25));
-    assert_eq!(info.signals["go"], SignalInfo { commands: 1, reports: 1 });
+    assert_eq!((info.signals["go"].commands, info.signals["go"].reports), (1, 1));
     assert_eq!(info.senders["plant"], 2);
     assert_eq!(info.messages["Refused"], 1);
     assert!(info.torn.is_some_and(|torn| torn.contains("line 5")));
