@@ -21,8 +21,10 @@
 //! The work of a study is spread over the cores with rayon, whose threads no line of ours starts or names.
 
 mod alone;
+mod apply;
 mod cost;
 mod edges;
+mod effects;
 mod floor;
 mod grid;
 mod overrides;
@@ -41,7 +43,9 @@ mod world;
 
 #[cfg(doc)]
 use crate::plant::EffectSpec;
+pub use apply::{Applied, apply};
 pub use cost::{STRAY, STRAY_SPAN_S, unmatched};
+pub use effects::effects_xml;
 pub use floor::Floor;
 pub use grid::Grid;
 pub use overrides::Overrides;

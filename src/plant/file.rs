@@ -172,7 +172,7 @@ fn instance(element: &Element, home: &str, has_base: bool, faults: &mut Faults) 
 }
 
 /// An instance's name: identifiers joined by points, so that a function block's qualified name can be one.
-fn qualified(element: &Element, faults: &mut Faults) -> Option<Located<String>> {
+pub(super) fn qualified(element: &Element, faults: &mut Faults) -> Option<Located<String>> {
     let name = element.required("name", faults)?;
     if name.value.split('.').all(words::is_identifier) {
         return Some(name.clone());
@@ -209,7 +209,8 @@ fn pose(element: &Element, faults: &mut Faults) -> Pose {
     Pose { x, y, z, rx: angle("rx"), ry: angle("ry"), rz: angle("rz") }
 }
 
-fn effect(element: &Element, faults: &mut Faults) -> Option<EffectSpec> {
+/// An `<effect>`, in a plant's file or in one of effects.
+pub(super) fn effect(element: &Element, faults: &mut Faults) -> Option<EffectSpec> {
     element.allow_attributes(&["kind", "place", "component"], faults);
     element.allow_children(&["parameter"], faults);
     let kind = element.required("kind", faults).cloned();

@@ -78,21 +78,25 @@ fn places(model: &str) -> Vec<String> {
 /// Prototypes are looked for in the folder `prototypes` beside the plant's file, in the folder `catalogue` beside the
 /// plant's folder, and in the catalogue `models/catalogue`, in this order.
 pub fn load(source: &dyn Source, model: &str, kinds: &[&'static KindDescriptor]) -> Result<Plant, ModelError> {
+    let (path, text) = locate(source, model)?;
+    let mut faults = Faults::default();
+    let plant = read(source, &path, &text, 0, &mut faults);
+    let plant = plant.and_then(|file| assemble(source, file, kinds, &mut faults));
+    match plant {
+        Some(plant) if faults.is_empty() => Ok(plant),
+        _ => {
+            faults.sort();
+            Err(ModelError::Faulty(faults))
+        }
+    }
+}
+
+/// The path of the file of `model`'s plant, and its text.
+pub fn locate(source: &dyn Source, model: &str) -> Result<(String, String), ModelError> {
     let tried = places(model);
     for path in &tried {
         match source.read(path) {
-            Ok(text) => {
-                let mut faults = Faults::default();
-                let plant = read(source, path, &text, 0, &mut faults);
-                let plant = plant.and_then(|file| assemble(source, file, kinds, &mut faults));
-                return match plant {
-                    Some(plant) if faults.is_empty() => Ok(plant),
-                    _ => {
-                        faults.sort();
-                        Err(ModelError::Faulty(faults))
-                    }
-                };
-            }
+            Ok(text) => return Ok((path.clone(), text)),
             Err(SourceError::NotFound { .. }) => {}
             Err(error) => return Err(ModelError::Unreadable(error)),
         }

@@ -3,8 +3,10 @@
 
 mod assemble;
 mod effect_spec;
+pub mod effects_file;
 pub mod embedded;
 mod file;
+mod insert;
 mod instance;
 mod load;
 mod parameter;
@@ -18,7 +20,8 @@ use crate::prototype::kind::KindDescriptor;
 use crate::signal_map::{RegisterId, SignalMap};
 
 pub use self::effect_spec::{EffectPlace, EffectSpec};
-pub use self::load::{ModelError, load};
+pub use self::insert::{Edited, insert};
+pub use self::load::{ModelError, load, locate};
 pub use self::places::Places;
 
 /// A plant, ready to be built into an engine.

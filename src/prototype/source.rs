@@ -19,6 +19,12 @@ pub enum SourceError {
     Unreadable { path: String, reason: String },
 }
 
+impl Source for &dyn Source {
+    fn read(&self, path: &str) -> Result<String, SourceError> {
+        (**self).read(path)
+    }
+}
+
 /// Files held in memory, by path.
 #[derive(Clone, Debug, Default)]
 pub struct Memory(pub BTreeMap<String, String>);

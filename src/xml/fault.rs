@@ -46,6 +46,16 @@ impl Place {
         Place { file: Arc::clone(file), span: span.start.min(end)..end }
     }
 
+    /// Its bytes in the file's text, which begins behind a byte order mark.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// What stands there.
+    pub fn text(&self) -> &str {
+        self.file.text.get(self.span.clone()).unwrap_or_default()
+    }
+
     /// The name of the file.
     pub fn file(&self) -> &str {
         self.file.name()

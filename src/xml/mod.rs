@@ -31,6 +31,8 @@ pub struct Element {
     pub children: Vec<Element>,
     /// The text between its tags, without that of its children, trimmed; at the first piece's place.
     pub text: Located<String>,
+    /// All of it, from the `<` of its start tag to the `>` of its end tag.
+    pub extent: Place,
 }
 
 /// Writes `text` as it may stand between the quotes of an attribute, or between tags.

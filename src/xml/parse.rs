@@ -65,10 +65,10 @@ impl Tree<'_> {
             match event {
                 Event::Start(tag) => self.start(&tag, span)?,
                 Event::Empty(tag) => {
-                    self.start(&tag, span)?;
-                    self.end();
+                    self.start(&tag, span.clone())?;
+                    self.end(span.end);
                 }
-                Event::End(_) => self.end(),
+                Event::End(_) => self.end(span.end),
                 Event::Text(text) => self.text(&text.xml10_content(), span),
                 Event::CData(text) => self.text(&text.xml10_content(), span),
                 Event::GeneralRef(reference) => self.reference(&reference, span),
@@ -109,7 +109,9 @@ impl Tree<'_> {
         }
         let attributes = self.attributes(tag, origin);
         let text = Located::new(String::new(), &place);
-        self.open.push(Element { name: Located::new(name, &place), attributes, children: Vec::new(), text });
+        // It ends where its end tag does.
+        let extent = self.place(span);
+        self.open.push(Element { name: Located::new(name, &place), attributes, children: Vec::new(), text, extent });
         Ok(())
     }
 
@@ -173,8 +175,9 @@ impl Tree<'_> {
         }
     }
 
-    fn end(&mut self) {
+    fn end(&mut self, end: usize) {
         let Some(mut element) = self.open.pop() else { return };
+        element.extent = self.place(element.extent.span().start..end);
         element.text.value = element.text.value.trim().to_owned();
         match self.open.last_mut() {
             Some(parent) => parent.children.push(element),
@@ -279,6 +282,8 @@ mod tests {
         assert_eq!(at(&child.name.place), "f.xml:4:4");
         assert_eq!(at(&child.attribute("d").expect("d").place), "f.xml:4:9");
         assert_eq!((root.text.value.as_str(), at(&root.text.place).as_str()), ("text & more", "f.xml:4:14"));
+        assert_eq!(child.extent.text(), "<c d=\"1\"/>");
+        assert!(root.extent.text().starts_with("<a\n") && root.extent.text().ends_with("more\n</a>"));
     }
 
     #[test]

@@ -5,8 +5,10 @@
 //! level its RMS error in the signal's own unit, for an edge the RMS of its time error in seconds, and for the whole gap
 //! (see [`Gap`]) the normalised RMS, in which a signal at its noise floor counts 1.
 
+mod answer;
 mod cause;
 mod flaws;
+pub mod number;
 mod read;
 mod shrink;
 mod verdict;
@@ -14,6 +16,7 @@ mod whereabouts;
 
 use serde::{Deserialize, Serialize};
 
+pub use answer::{Answer, on, words};
 pub use cause::{Cause, FittedParameter, Member, Rival};
 pub use read::ReportError;
 pub use shrink::{Beside, Consequence, DeviceConsequence, Remainder, Shrink};
