@@ -199,6 +199,11 @@ fn record_and_replay() {
 }
 
 #[test]
+fn diagnose_a_gap() {
+    walk(&page("docs/diagnose-a-gap.md"));
+}
+
+#[test]
 fn every_page_that_shows_commands_is_walked() {
     let this = include_str!("docs.rs");
     for entry in fs::read_dir(root().join("docs")).expect("docs") {

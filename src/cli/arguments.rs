@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::apply::ApplyArguments;
+use super::table::{ExportArguments, ImportArguments};
 use crate::adapter::ParseEndpointError;
 use crate::run::{Connect, Speed};
 use crate::time::parse_duration;
@@ -44,17 +46,29 @@ pub enum Command {
     Check(CheckArguments),
     SignalsMap(SignalsMapArguments),
     Replay(ReplayArguments),
-    /// Looks into recorded traces, and cuts them
+    /// Looks into recorded traces, cuts them, and makes them from tables and tables from them
     Trace {
         #[command(subcommand)]
         command: TraceCommand,
     },
+    /// Diagnoses the gap between a model and its machine, and closes it
+    Gap {
+        #[command(subcommand)]
+        command: GapCommand,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+pub enum GapCommand {
+    Apply(ApplyArguments),
 }
 
 #[derive(Debug, Subcommand)]
 pub enum TraceCommand {
     Info(InfoArguments),
     Cut(CutArguments),
+    Import(Box<ImportArguments>),
+    Export(ExportArguments),
 }
 
 /// Runs a model against its automation.
@@ -211,12 +225,19 @@ Exit codes:
   1  some signals differ; each is named
   2  the trace or the model cannot be read";
 
-/// Says what stands in a trace: its header, its times, and how often each signal stands in it.
+/// Says what stands in a trace: its header, its times, its signals, and what it excites.
+///
+/// Of every signal: how many values it has from which side, how often one comes, and how it moves: its range, its highest
+/// speed, how often it turns back, starts and stops. Spans in which the plant says nothing are listed. With --model, what
+/// each device's signals hold, and which effects they could show at all: an effect is seen only where something excites it.
 #[derive(Debug, Args)]
 #[command(after_long_help = INFO_HELP)]
 pub struct InfoArguments {
     /// The trace: *.cps.jsonl, or compressed *.cps.jsonl.zst
     pub trace: PathBuf,
+    /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue (models/rig)
+    #[arg(long, value_name = "MODEL")]
+    pub model: Option<String>,
     /// Prints the result as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -225,7 +246,11 @@ pub struct InfoArguments {
 const INFO_HELP: &str = "\
 Examples:
   kinetwin trace info session.cps.jsonl.zst
-  kinetwin trace info machine.cps.jsonl --json";
+  kinetwin trace info arm.cps.jsonl --model models/servo-arm
+
+Exit codes:
+  0  the trace was read
+  2  it cannot be read, or the model cannot";
 
 /// Copies a span of a trace to a trace of its own.
 ///

@@ -3,9 +3,12 @@
 //! Exit codes: 0 when the command did what was asked, 1 when the answer is no (a check fails, a comparison differs, a run
 //! that never had a session), 2 on bad input or use.
 
+mod apply;
 mod arguments;
 mod check;
+mod info;
 mod log;
+mod output;
 mod picture;
 mod plan;
 mod replay;
@@ -13,6 +16,7 @@ mod report;
 mod run;
 mod signals;
 mod status;
+mod table;
 mod terminal;
 mod words;
 
@@ -24,7 +28,7 @@ use miette::GraphicalTheme;
 
 use crate::plant::ModelError;
 use crate::run::RunError;
-use arguments::{Arguments, Command, RunArguments, TraceCommand};
+use arguments::{Arguments, Command, GapCommand, RunArguments, TraceCommand};
 
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +53,11 @@ pub fn main() -> ExitCode {
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::SignalsMap(arguments)) => check::signals_map(&arguments),
         Some(Command::Replay(arguments)) => replay::replay(&arguments),
-        Some(Command::Trace { command: TraceCommand::Info(arguments) }) => replay::info(&arguments),
+        Some(Command::Trace { command: TraceCommand::Info(arguments) }) => info::info(&arguments),
         Some(Command::Trace { command: TraceCommand::Cut(arguments) }) => replay::cut(&arguments),
+        Some(Command::Trace { command: TraceCommand::Import(arguments) }) => table::import(&arguments),
+        Some(Command::Trace { command: TraceCommand::Export(arguments) }) => table::export(&arguments),
+        Some(Command::Gap { command: GapCommand::Apply(arguments) }) => apply::apply(&arguments),
     };
     match answer {
         Ok(Answer::Yes) => ExitCode::SUCCESS,
