@@ -28,6 +28,7 @@ mod effects;
 mod floor;
 mod grid;
 mod overrides;
+pub mod page;
 mod parts;
 mod prediction;
 pub mod production;

@@ -49,12 +49,12 @@ impl Report {
             Verdict::Partial => {
                 let rest = self.remainder.as_ref().map(|rest| percent(rest.share)).unwrap_or_default();
                 format!(
-                    "A part of it is {named}; {rest} is left that nothing in the library explains{}.",
+                    "A part of it: {named}; {rest} is left that nothing in the library explains{}.",
                     depends.unwrap_or_default()
                 )
             }
-            Verdict::Ambiguous => format!("It is {named}.{}", self.undecided()),
-            Verdict::Effect => format!("It is {named}."),
+            Verdict::Ambiguous => format!("Cause: {named}.{}", self.undecided()),
+            Verdict::Effect => format!("Cause: {named}."),
         }
     }
 
