@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand};
 
 use super::apply::ApplyArguments;
+use super::locate::LocateArguments;
 use super::table::{ExportArguments, ImportArguments};
 use crate::adapter::ParseEndpointError;
 use crate::run::{Connect, Speed};
@@ -61,6 +62,7 @@ pub enum Command {
 #[derive(Debug, Subcommand)]
 pub enum GapCommand {
     Apply(ApplyArguments),
+    Locate(LocateArguments),
 }
 
 #[derive(Debug, Subcommand)]

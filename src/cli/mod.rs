@@ -7,6 +7,7 @@ mod apply;
 mod arguments;
 mod check;
 mod info;
+mod locate;
 mod log;
 mod output;
 mod picture;
@@ -54,6 +55,7 @@ pub fn main() -> ExitCode {
         Some(Command::SignalsMap(arguments)) => check::signals_map(&arguments),
         Some(Command::Replay(arguments)) => replay::replay(&arguments),
         Some(Command::Trace { command: TraceCommand::Info(arguments) }) => info::info(&arguments),
+        Some(Command::Gap { command: GapCommand::Locate(arguments) }) => locate::run(&arguments),
         Some(Command::Trace { command: TraceCommand::Cut(arguments) }) => replay::cut(&arguments),
         Some(Command::Trace { command: TraceCommand::Import(arguments) }) => table::import(&arguments),
         Some(Command::Trace { command: TraceCommand::Export(arguments) }) => table::export(&arguments),

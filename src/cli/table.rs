@@ -12,7 +12,7 @@ use super::{Answer, Failure, words};
 use crate::run::model;
 use crate::trace::export::{self, Exported};
 use crate::trace::import::{self, Clock, Imported, Mapping, Settings, Shape, Signals, Table, TimeUnit};
-use crate::trace::{self, Compression, Header, Source, Writer};
+use crate::trace::{self, Commands, Compression, Header, Source, Writer};
 
 /// Makes a trace of tables of measurements: CSV files, or an MCAP file.
 ///
@@ -65,6 +65,9 @@ pub struct ImportArguments {
     /// Counts times from the first row
     #[arg(long)]
     pub from_zero: bool,
+    /// The rows sample commands that moved on straight lines between them; without it, a command holds until the next row
+    #[arg(long)]
+    pub sampled: bool,
     /// Who stood at the plant's end when it was recorded
     #[arg(long, value_name = "WHO", default_value = "plant")]
     pub source: SourceArgument,
@@ -176,6 +179,7 @@ pub fn import(arguments: &ImportArguments) -> Result<Answer, Failure> {
         },
         model: arguments.model.clone(),
         note: Some(arguments.note.clone().unwrap_or_else(|| format!("imported from {}", names.join(", ")))),
+        commands: if arguments.sampled { Commands::Sampled } else { Commands::Held },
         ..Header::default()
     };
     let tables = tables(arguments)?;

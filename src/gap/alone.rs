@@ -13,6 +13,9 @@ const SAME_S: f64 = 1e-9;
 /// How often the instant of an edge is halved: of a cycle of 20 ms, to a nanosecond.
 const HALVINGS: u32 = 24;
 
+/// How long a device that a recording finds under way is given to settle, s.
+const SETTLING_S: f64 = 5.0;
+
 /// A report that is looked at.
 pub(super) struct Watch<'a> {
     pub port: usize,
@@ -51,6 +54,18 @@ impl Alone {
             }
             self.now = at;
         }
+    }
+
+    /// Lets the device come to where its first commands of each port lead, and sets the clock back.
+    fn settle(&mut self, run: &Run) {
+        let mut told = Vec::new();
+        for (port, stamped) in &run.commands {
+            if !told.contains(port) {
+                told.push(*port);
+                self.device.command(*port, stamped.value);
+            }
+        }
+        self.device.advance(SETTLING_S);
     }
 
     /// The part that changed a beam last, if the port is that beam's.
@@ -122,6 +137,9 @@ impl Stream<'_> {
 /// Lets a device live through a run.
 pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Predicted> {
     let mut streams = streams(run, watches);
+    if run.settles {
+        alone.settle(run);
+    }
     let mut views: Vec<View> = watches.iter().map(|watch| View::new(watch, &alone)).collect();
     let has_edges = views.iter().any(|view| view.is_edge);
     let mut command = 0;

@@ -40,7 +40,7 @@ fn cheapest(track: &Track, recorded: &[Edge], predicted: &[PredictedEdge], sigma
     let mut best = vec![f64::INFINITY; (n + 1) * width];
     let near = |i: usize, j: usize| i.abs_diff(j) <= band;
     let paired = |i: usize, j: usize| match recorded[i].to == predicted[j].to {
-        true => interval_cost(track, recorded[i].index, predicted[j].at, sigma),
+        true => interval_cost(track, recorded[i].index, &predicted[j], sigma),
         false => f64::INFINITY,
     };
     for i in 0..=n {
@@ -85,10 +85,17 @@ pub(super) fn interval(track: &Track, index: usize) -> (f64, f64) {
     (before, seen)
 }
 
-/// What it costs that an edge predicted at `at` is shown at `index`. Instants that are not exact make the interval's ends soft.
-pub(super) fn interval_cost(track: &Track, index: usize, at: f64, sigma: f64) -> f64 {
+/// How far an edge may be off in time, s: as far as its sensor (`sigma`), its instants, and the part that makes it.
+pub(super) fn uncertainty(track: &Track, predicted: &PredictedEdge, sigma: f64) -> f64 {
+    const SLOWEST: f64 = 1e-3;
+    let part = predicted.part.map_or(0.0, |passing| track.tolerance / passing.speed.max(SLOWEST));
+    sigma.hypot(track.grid.spread).hypot(part)
+}
+
+/// What it costs that a predicted edge is shown at `index`.
+pub(super) fn interval_cost(track: &Track, index: usize, predicted: &PredictedEdge, sigma: f64) -> f64 {
     let (before, seen) = interval(track, index);
-    cost::edge(before, seen, at, sigma.hypot(track.grid.spread))
+    cost::edge(before, seen, predicted.at, uncertainty(track, predicted, sigma))
 }
 
 #[cfg(test)]
@@ -101,7 +108,16 @@ mod tests {
     fn track(edges: &[(usize, f64)]) -> Track {
         let edges = edges.iter().map(|(index, to)| Edge { index: *index, to: *to }).collect();
         let grid = Arc::new(Grid::of_steps(0.02, 60.0));
-        Track { grid, first: 0, values: Vec::new(), initial: 0.0, edges, origins: Vec::new(), blind: Vec::new() }
+        Track {
+            grid,
+            first: 0,
+            values: Vec::new(),
+            initial: 0.0,
+            edges,
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind: Vec::new(),
+        }
     }
 
     fn predicted(edges: &[(f64, f64)]) -> Vec<PredictedEdge> {

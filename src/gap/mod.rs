@@ -9,7 +9,7 @@
 //! of the machine, the noise of its signals, and one [`Subject`] for each device. A subject is the device alone, driven by
 //! the recorded commands at their exact times and by what its neighbours reported. It predicts its own reports, with any
 //! [`EffectSpec`] and any other nominal parameters, and scores the prediction against the recording: −2 ln likelihood, sample
-//! by sample and edge by edge.
+//! by sample and edge by edge. [`locate`](fn@locate) says which devices have a gap of their own.
 //!
 //! A fit is a function of parameters to residuals, whose squares sum to the cost:
 //!
@@ -27,6 +27,8 @@ mod edges;
 mod effects;
 mod floor;
 mod grid;
+mod locate;
+mod mask;
 mod overrides;
 pub mod page;
 mod parts;
@@ -47,8 +49,10 @@ use crate::plant::EffectSpec;
 pub use apply::{Applied, apply};
 pub use cost::{STRAY, STRAY_SPAN_S, unmatched};
 pub use effects::effects_xml;
-pub use floor::Floor;
+pub use floor::{Floor, FloorCosts};
 pub use grid::Grid;
+pub use locate::{Located, LocatedSignal, Location, THRESHOLD, locate};
+pub use mask::{MaskError, read_mask};
 pub use overrides::Overrides;
 pub use parts::Origin;
 pub use prediction::{Passing, Predicted, PredictedEdge, Prediction};

@@ -17,6 +17,8 @@ pub(super) struct Geometry {
     pub beams: [Option<f64>; 2],
     /// How long the parts of this plant cut a beam, m of the belt's way, in any position that they stand in.
     pub lengths: Vec<f64>,
+    /// How far its parts' edges may be off, m.
+    pub tolerance: f64,
 }
 
 /// How far from where it is expected a part may be seen, m, and as a share of its way.
@@ -219,37 +221,49 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
     }
 }
 
+/// A barrier that parts pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Barrier<'a> {
+    pub track: &'a Track,
+    pub predicted: &'a [PredictedEdge],
+    /// How far its edges may be off in time, s.
+    pub sigma: f64,
+}
+
 /// An edge of a part, recorded and predicted.
 #[derive(Clone, Copy, Debug)]
 struct PartEdge<'a> {
     track: &'a Track,
+    sigma: f64,
     /// The grid's instant that showed it.
     index: usize,
     predicted: PredictedEdge,
 }
 
-/// How much further each part was than its first edge said, m, given the tracks of the barriers and what is predicted of
-/// them; `sigma` is how far a sensor may be off in time, s.
-pub(super) fn likeliest_shifts(barriers: &[(&Track, &[PredictedEdge])], sigma: f64) -> Vec<f64> {
+/// How much further each part was than its first edge said, m.
+pub(super) fn likeliest_shifts(barriers: &[Barrier<'_>]) -> Vec<f64> {
     let mut of_part: Vec<Vec<PartEdge<'_>>> = Vec::new();
-    for (track, predicted) in barriers {
-        for pair in pair(track, predicted, sigma) {
+    for Barrier { track, predicted, sigma } in barriers {
+        for pair in pair(track, predicted, *sigma) {
             let (Some(recorded), Some(foreseen)) = (pair.recorded, pair.predicted) else { continue };
             let Some(part) = track.part(recorded) else { continue };
             if of_part.len() <= part {
                 of_part.resize(part + 1, Vec::new());
             }
-            let index = track.edges[recorded].index;
-            of_part[part].push(PartEdge { track, index, predicted: predicted[foreseen] });
+            let (index, predicted) = (track.edges[recorded].index, predicted[foreseen]);
+            of_part[part].push(PartEdge { track, sigma: *sigma, index, predicted });
         }
     }
-    of_part.iter().map(|edges| likeliest_shift(edges, sigma)).collect()
+    of_part.iter().map(|edges| likeliest_shift(edges)).collect()
 }
 
 /// How much further a part was than its first edge said, m: where its edges together cost least.
-fn likeliest_shift(edges: &[PartEdge<'_>], sigma: f64) -> f64 {
+fn likeliest_shift(edges: &[PartEdge<'_>]) -> f64 {
     let cost = |shift: f64| -> f64 {
-        let edge = |edge: &PartEdge<'_>| interval_cost(edge.track, edge.index, shifted(&edge.predicted, shift), sigma);
+        let edge = |edge: &PartEdge<'_>| {
+            let predicted = PredictedEdge { at: shifted(&edge.predicted, shift), ..edge.predicted };
+            interval_cost(edge.track, edge.index, &predicted, edge.sigma)
+        };
         edges.iter().map(edge).sum::<f64>() + 1e-6 * shift * shift
     };
     // Every edge's own best, and the ends of what it allows.

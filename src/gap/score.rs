@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::cost::{self, residual};
-use super::edges::{Pair, interval, interval_cost, pair};
+use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::floor::Floor;
 use super::parts::shifted;
 use super::prediction::PredictedEdge;
@@ -64,6 +64,8 @@ pub struct EdgeScore {
     /// How far the predicted one lies outside of the recorded one's interval, s: positive where the recorded one is later; 0
     /// within it, and of an edge alone.
     pub error: f64,
+    /// How far it may be off in time where nothing is wrong, standard deviation, s.
+    pub uncertainty: f64,
     pub cost: f64,
     pub residual: f64,
 }
@@ -126,9 +128,12 @@ impl SignalScore {
     pub(super) fn level(place: (usize, usize), track: &Track, predicted: &[f64], floor: Floor, is_count: bool) -> Self {
         let grid = &track.grid;
         let half = if is_count { 0.5 } else { 0.0 };
-        let shows_noise = floor.noise > floor.step / 3.0;
+        let shows_noise = floor.shows_noise();
         let mut level = LevelScore::default();
-        let (mut squares, mut floors, mut counted) = (0.0, 0.0, 0.0);
+        let (mut squares, mut floors) = (0.0, 0.0);
+        let costs = floor.costs();
+        let lattice = track.values.first().copied().unwrap_or(0.0) + half;
+        let mut floor_cost = (0.0, 0.0);
         for (k, (recorded, predicted_here)) in track.values.iter().zip(predicted).enumerate() {
             let index = track.first + k;
             if track.is_blind(index) {
@@ -136,10 +141,15 @@ impl SignalScore {
             }
             let slope = slope(grid.instants.as_slice(), track.first, predicted, k);
             let difference = recorded + half - predicted_here;
-            let is_rest = !shows_noise
-                && k > 0
-                && track.values[k - 1] == *recorded
-                && (predicted[k - 1] - predicted_here).abs() < 1e-3 * floor.step;
+            let is_rest = !shows_noise && k > 0 && {
+                let before = track.values[k - 1] - predicted[k - 1];
+                let (now, step) = (recorded - predicted_here, floor.step);
+                let is_still =
+                    track.values[k - 1] == *recorded && (predicted[k - 1] - predicted_here).abs() < 1e-3 * step;
+                // On a ramp that climbs by whole steps in a cycle, rounding repeats itself as it does at rest.
+                let repeats = (now - before).abs() < 1e-2 * step && (now + half).abs() < 0.55 * step;
+                is_still || repeats
+            };
             let cost = match is_rest {
                 true => 0.0,
                 false => cost::level(recorded + half, *predicted_here, floor.step, floor.sigma(slope)),
@@ -150,15 +160,17 @@ impl SignalScore {
             level.difference.push(difference);
             squares += difference * difference;
             floors += floor.rms(slope).powi(2);
-            counted += if is_rest { 0.0 } else { 1.0 };
+            if !is_rest {
+                let (mean, variance) = costs.at((predicted_here - lattice) / floor.step);
+                floor_cost = (floor_cost.0 + mean, floor_cost.1 + variance);
+            }
         }
         let count = level.at.len().max(1) as f64;
-        let (mean, variance) = floor.cost();
         SignalScore {
             signal: place.0,
             run: place.1,
             cost: level.cost.iter().sum(),
-            floor_cost: (mean * counted, variance * counted),
+            floor_cost,
             rms: (squares / count).sqrt(),
             floor: (floors / count).sqrt(),
             level: Some(level),
@@ -181,15 +193,21 @@ impl SignalScore {
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
         let count = errors.len().max(1) as f64;
-        let (mean, variance) = edge_floor(track.grid.cycle, sigma.hypot(track.grid.spread));
-        let recorded = edges.iter().filter(|edge| edge.recorded.is_some()).count() as f64;
+        let floor_of = |edge: &EdgeScore| {
+            let cycle = track.grid.cycle;
+            let start = edge.recorded.map_or(0.0, |(before, _)| before);
+            let at = edge.predicted.map_or(0.5 * cycle, |at| (at - start).rem_euclid(cycle.max(1e-9)));
+            edge_floor(cycle, edge.uncertainty, at)
+        };
+        let recorded = edges.iter().filter(|edge| edge.recorded.is_some());
+        let floor_cost = recorded.map(floor_of).fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
         SignalScore {
             signal: place.0,
             run: place.1,
             cost: edges.iter().map(|edge| edge.cost).sum(),
-            floor_cost: (mean * recorded, variance * recorded),
+            floor_cost,
             rms: (errors.iter().map(|error| error * error).sum::<f64>() / count).sqrt(),
-            floor: sigma.hypot(track.grid.spread) * (sigma / track.grid.cycle.max(sigma)).sqrt(),
+            floor: edges_floor(&edges, track.grid.cycle),
             level: None,
             edges,
         }
@@ -222,7 +240,7 @@ fn edge(track: &Track, predicted: &[PredictedEdge], shifts: &[f64], pair: &Pair,
     let (cost, error) = match (recorded, within, foreseen) {
         (Some(recorded), Some((before, seen)), Some(foreseen)) => {
             let error = if foreseen.at > seen { seen - foreseen.at } else { (before - foreseen.at).max(0.0) };
-            (interval_cost(track, recorded.index, foreseen.at, sigma), error)
+            (interval_cost(track, recorded.index, &foreseen, sigma), error)
         }
         _ => (cost::unmatched(), 0.0),
     };
@@ -230,23 +248,28 @@ fn edge(track: &Track, predicted: &[PredictedEdge], shifts: &[f64], pair: &Pair,
     let side = foreseen.map_or(1.0, |foreseen| middle - foreseen.at);
     let to = recorded.map(|edge| edge.to).or(foreseen.map(|edge| edge.to)).unwrap_or(0.0);
     let predicted = foreseen.map(|edge| edge.at);
-    Some(EdgeScore { to, recorded: within, predicted, error, cost, residual: residual(cost, side) })
+    let uncertainty = foreseen.map_or(sigma, |foreseen| uncertainty(track, &foreseen, sigma));
+    Some(EdgeScore { to, recorded: within, predicted, error, uncertainty, cost, residual: residual(cost, side) })
 }
 
-/// Mean and variance of the cost of an edge where nothing is wrong: anywhere within a cycle, its sensor off by `sigma`.
-fn edge_floor(cycle: f64, sigma: f64) -> (f64, f64) {
-    const PLACES: i32 = 64;
+/// The root mean square of how far edges lie outside of their cycles where nothing is wrong: of a cycle that is long beside the
+/// uncertainty u, those within u of its ends are, by about u.
+fn edges_floor(edges: &[EdgeScore], cycle: f64) -> f64 {
+    let square = |edge: &EdgeScore| edge.uncertainty.powi(2) * (edge.uncertainty / cycle.max(edge.uncertainty));
+    (edges.iter().map(square).sum::<f64>() / edges.len().max(1) as f64).sqrt()
+}
+
+/// Mean and variance of the cost of an edge where nothing is wrong that comes `at` after its cycle's start, s, its sensor off by
+/// `sigma`: nothing in the middle of a cycle, and something at its ends.
+fn edge_floor(cycle: f64, sigma: f64, at: f64) -> (f64, f64) {
     let reach = if cycle > 0.0 { ((6.0 * sigma / cycle).ceil() as i32).min(64) } else { 0 };
     let (mut mean, mut square) = (0.0, 0.0);
-    for place in 0..PLACES {
-        let at = cycle * (f64::from(place) + 0.5) / f64::from(PLACES);
-        for shown in -reach..=reach {
-            let (before, seen) = (f64::from(shown) * cycle, f64::from(shown + 1) * cycle);
-            let share = cost::normal((seen - at) / sigma) - cost::normal((before - at) / sigma);
-            let cost = cost::edge(before, seen, at, sigma);
-            mean += share * cost / f64::from(PLACES);
-            square += share * cost * cost / f64::from(PLACES);
-        }
+    for shown in -reach..=reach {
+        let (before, seen) = (f64::from(shown) * cycle, f64::from(shown + 1) * cycle);
+        let share = cost::normal((seen - at) / sigma) - cost::normal((before - at) / sigma);
+        let cost = cost::edge(before, seen, at, sigma);
+        mean += share * cost;
+        square += share * cost * cost;
     }
     (mean, (square - mean * mean).max(1e-6))
 }

@@ -9,7 +9,7 @@ use super::overrides::Overrides;
 use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
 use super::score::Score;
-use super::subject::Subject;
+use super::subject::{Subject, Timing};
 use super::surroundings;
 use super::tick::{self, Vote};
 use crate::effect::EffectError;
@@ -59,6 +59,9 @@ impl Study {
         let sizes = surroundings::part_sizes(plant);
         subjects.par_iter_mut().try_for_each(|subject| subject.surround(&sizes))?;
         let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
+        for run in 0..recordings.len() {
+            find_edge_sigma(&mut subjects, &nominal, run);
+        }
         Ok(Study { subjects, nominal, ticks, grids })
     }
 
@@ -97,8 +100,29 @@ fn find_tick(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
 /// The nominal prediction of a subject, and its floors with it.
 fn calibrate(subject: &mut Subject) -> Result<Prediction, EffectError> {
     let nominal = subject.predict(&[], &Overrides::none())?;
-    subject.find_floors(&nominal);
+    subject.find_floors(&nominal, Timing::AsFound);
     Ok(nominal)
+}
+
+/// How far sensors may be off in time, s: what is tried.
+const EDGE_SIGMAS_S: [f64; 6] = [1e-4, 2e-4, 3e-4, 4.5e-4, 7e-4, 1e-3];
+
+/// Finds how far the sensors of a run are off in time, one number for all: the likeliest. A sensor with a gap of its own says
+/// nothing, its edges being strays whatever the number.
+fn find_edge_sigma(subjects: &mut [Subject], nominal: &[Prediction], run: usize) {
+    let cost = |sigma: f64| -> f64 {
+        let of = |(subject, nominal): (&Subject, &Prediction)| {
+            let mut alone = subject.only(run);
+            alone.set_edge_sigma(0, sigma);
+            let sensors: Vec<usize> = alone.sensors().collect();
+            let score = alone.score(&Prediction { runs: vec![nominal.runs[run].clone()] });
+            score.signals.iter().filter(|of| sensors.contains(&of.signal)).map(|of| of.cost).sum::<f64>()
+        };
+        subjects.iter().zip(nominal).filter(|(subject, _)| subject.sensors().next().is_some()).map(of).sum()
+    };
+    let costs: Vec<(f64, f64)> = EDGE_SIGMAS_S.iter().map(|sigma| (cost(*sigma), *sigma)).collect();
+    let best = costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(EDGE_SIGMAS_S[0], |(_, sigma)| sigma);
+    subjects.iter_mut().for_each(|subject| subject.set_edge_sigma(run, best));
 }
 
 /// The grids of a recording: one for all where all signals lie on it, else one for each beat.

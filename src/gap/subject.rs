@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
 use super::floor::Floor;
-use super::grid::Grid;
+use super::grid::{Grid, median};
 use super::overrides::Overrides;
-use super::parts::likeliest_shifts;
-use super::prediction::{Predicted, PredictedEdge, Prediction};
+use super::parts::{Barrier, likeliest_shifts};
+use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::score::{Score, SignalScore};
 use super::surroundings;
@@ -18,9 +18,12 @@ use crate::effect::{self, EffectError};
 use crate::plant::{EffectSpec, Parameters, Plant};
 use crate::prototype::kind::{KindDescriptor, PortType};
 use crate::signal_map::{Direction, Kind, RegisterId};
+use crate::trace::Commands;
 
 /// How far a sensor may be off in time where nothing better is known, s.
-pub(super) const EDGE_SIGMA_S: f64 = 3e-4;
+const EDGE_SIGMA_S: f64 = 3e-4;
+/// As near as an edge is known at all: a tick, s.
+pub(super) const LEAST_EDGE_SIGMA_S: f64 = 1e-4;
 
 /// A report of a subject.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,10 +55,12 @@ pub struct Run {
     pub tracks: Vec<Option<Track>>,
     /// The floors of its levels, in the same order.
     pub floors: Vec<Floor>,
-    /// How far its sensors may be off in time, s.
-    pub edge_sigma: f64,
+    /// How far the edges of each signal may be off in time, standard deviation, s, in the same order.
+    pub edge_sigmas: Vec<f64>,
     /// What surrounds the device: parts that pass, as far as they were recorded.
     pub script: Arc<Script>,
+    /// Whether the recording starts under way, so that the device is given time to settle at its first commands.
+    pub(super) settles: bool,
     /// At equal times, whether a report already follows a command: so with steps of ours.
     pub(super) commands_first: bool,
     /// The tick at which the machine looked at its state, s; 0: none.
@@ -69,6 +74,15 @@ impl Run {
     pub fn command_tick(&self) -> f64 {
         self.command_tick
     }
+}
+
+/// How well the instants of a run are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Timing {
+    /// As well as with a tick that is right: while ticks compete.
+    Exact,
+    /// As what was found says.
+    AsFound,
 }
 
 /// A device of a plant with what the recordings say of it. May be shared between threads; every prediction builds a device
@@ -105,12 +119,13 @@ impl Subject {
             Run {
                 recording: recording.name.clone(),
                 ends: recording.ends,
-                commands: commands_of(&commanded, recording),
+                commands: commands_of(plant, &commanded, recording),
+                settles: settles(plant, &commanded, recording),
                 tracks: signals.iter().map(track).collect(),
                 floors: vec![Floor { step: 1.0, noise: 0.0, timing: 0.0 }; signals.len()],
-                edge_sigma: EDGE_SIGMA_S,
+                edge_sigmas: vec![EDGE_SIGMA_S; signals.len()],
                 script: Arc::default(),
-                commands_first: recording.step().is_some(),
+                commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
                 command_tick: 0.0,
             }
@@ -138,9 +153,27 @@ impl Subject {
         let run = |run: &Run| {
             let watch = |(info, track)| self.watch(info, track, run);
             let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
-            alone::run(Alone::new(device.boxed(), self.kind.ports.len(), &run.script), run, &watches)
+            let alone = Alone::new(device.boxed(), self.kind.ports.len(), &run.script);
+            let mut predicted = alone::run(alone, run, &watches);
+            self.count_on(run, &mut predicted);
+            predicted
         };
         Ok(Prediction { runs: self.runs.iter().map(run).collect() })
+    }
+
+    /// A counter that a recording finds at some count counts on from there: where it began is no gap.
+    fn count_on(&self, run: &Run, predicted: &mut [Predicted]) {
+        const STARTED_FRESH: f64 = 2.0;
+        for (signal, _) in self.signals.iter().enumerate().filter(|(_, info)| info.is_count) {
+            let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &mut predicted[signal]) else {
+                continue;
+            };
+            let (Some(recorded), Some(first)) = (track.values.first(), values.first().copied()) else { continue };
+            if recorded.abs() > STARTED_FRESH {
+                let base = recorded + 0.5 - first;
+                values.iter_mut().for_each(|value| *value += base);
+            }
+        }
     }
 
     fn watch<'a>(&self, info: &SignalInfo, track: &'a Option<Track>, run: &Run) -> Watch<'a> {
@@ -161,7 +194,7 @@ impl Subject {
                         Some(SignalScore::level((signal, at), track, values, floor, info.is_count))
                     }
                     Predicted::Edges { edges, .. } => {
-                        Some(SignalScore::edges((signal, at), track, edges, &shifts, run.edge_sigma))
+                        Some(SignalScore::edges((signal, at), track, edges, &shifts, run.edge_sigmas[signal]))
                     }
                 });
             }
@@ -172,18 +205,32 @@ impl Subject {
 
     /// How much further each part of a run was than its first edge said, m: see [`super::parts`].
     fn shifts(&self, run: &Run, predicted: &[Predicted]) -> Vec<f64> {
-        let barriers: Vec<(&Track, &[PredictedEdge])> = run
-            .tracks
-            .iter()
-            .zip(predicted)
-            .filter_map(|(track, predicted)| match (track, predicted) {
+        let signals = run.tracks.iter().zip(predicted).zip(&run.edge_sigmas);
+        let barriers: Vec<Barrier<'_>> = signals
+            .filter_map(|((track, predicted), sigma)| match (track, predicted) {
                 (Some(track), Predicted::Edges { edges, .. }) if !track.origins.is_empty() => {
-                    Some((track, edges.as_slice()))
+                    Some(Barrier { track, predicted: edges, sigma: *sigma })
                 }
                 _ => None,
             })
             .collect();
-        likeliest_shifts(&barriers, run.edge_sigma)
+        likeliest_shifts(&barriers)
+    }
+
+    /// The signals that sensors make of what they see, not the drive's own states.
+    pub(super) fn sensors(&self) -> impl Iterator<Item = usize> {
+        let is_sensor = |info: &SignalInfo| {
+            beam_of(info).is_some() || matches!(info.property.as_str(), "limitExtended" | "limitRetracted" | "vacuumOn")
+        };
+        self.signals.iter().enumerate().filter(move |(_, info)| is_sensor(info)).map(|(place, _)| place)
+    }
+
+    /// Sets how far the edges of a run's sensors may be off in time, s; the drive's own states are as good as a tick.
+    pub(super) fn set_edge_sigma(&mut self, run: usize, sigma: f64) {
+        self.runs[run].edge_sigmas.fill(LEAST_EDGE_SIGMA_S);
+        for place in self.sensors().collect::<Vec<_>>() {
+            self.runs[run].edge_sigmas[place] = sigma;
+        }
     }
 
     /// How far two predictions lie apart in units of the noise, as residuals of least squares: of a level sample by sample,
@@ -233,14 +280,15 @@ impl Subject {
 
     /// Finds the floors of all levels from the recordings and a prediction, which may be wrong: what it gets wrong is slow
     /// beside noise.
-    pub(super) fn find_floors(&mut self, prediction: &Prediction) {
+    pub(super) fn find_floors(&mut self, prediction: &Prediction, timing: Timing) {
         let is_servo = self.kind.name == "kinetwin.ServoAxis";
         for (run, predicted) in self.runs.iter_mut().zip(&prediction.runs) {
             for (signal, info) in self.signals.iter().enumerate() {
                 let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &predicted[signal]) else {
                     continue;
                 };
-                let timing = match run.sample_tick > 0.0 || run.commands_first {
+                let is_exact = timing == Timing::Exact || run.sample_tick > 0.0 || run.commands_first;
+                let timing = match is_exact {
                     true if is_servo && info.property == "force" => 25e-6,
                     true => 10e-6,
                     false => 50e-6_f64.hypot(track.grid.spread),
@@ -295,19 +343,62 @@ fn track_of(plant: &Plant, info: &SignalInfo, recording: &Recording, grids: &[Ar
     let grid = &grids[Beat::of(signal) as usize];
     let stamped = recording.values(info.register);
     match info.kind {
-        Kind::Level => Track::level(grid, recording, stamped),
+        Kind::Level => {
+            Track::level(grid, recording, stamped).map(|track| if info.is_count { track.unwrapped() } else { track })
+        }
         Kind::Edge => Track::edge(grid, recording, stamped),
     }
 }
 
-fn commands_of(commanded: &[(usize, RegisterId)], recording: &Recording) -> Vec<(usize, Stamped)> {
+/// Whether its commands are samples of references that move on straight lines between them.
+fn is_sampled(recording: &Recording) -> bool {
+    recording.header.commands == Commands::Sampled
+}
+
+fn commands_of(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Recording) -> Vec<(usize, Stamped)> {
     let of = |(port, register): &(usize, RegisterId)| {
         let port = *port;
-        recording.values(*register).iter().map(move |stamped| (port, *stamped))
+        let told = recording.values(*register);
+        let is_level = plant.signal_map.signal(*register).kind == Kind::Level;
+        let told = if is_level && is_sampled(recording) { on_lines(told) } else { told.to_vec() };
+        told.into_iter().map(move |stamped| (port, stamped))
     };
     let mut commands: Vec<(usize, Stamped)> = commanded.iter().flat_map(of).collect();
     commands.sort_by(|a, b| a.1.at.total_cmp(&b.1.at));
     commands
+}
+
+/// Samples with the straight lines between them, in short steps that each hold their middle; not over a gap in time.
+fn on_lines(samples: &[Stamped]) -> Vec<Stamped> {
+    const PARTS: u32 = 10;
+    const GAP: f64 = 5.0;
+    let spans: Vec<f64> = samples.windows(2).map(|pair| pair[1].at - pair[0].at).collect();
+    let usual = median(&spans).unwrap_or(0.0);
+    let mut on_lines = Vec::with_capacity(samples.len() * PARTS as usize);
+    for pair in samples.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        on_lines.push(from);
+        if to.at - from.at > GAP * usual || from.value == to.value {
+            continue;
+        }
+        for part in 0..PARTS {
+            let share = |of: f64| (f64::from(part) + of) / f64::from(PARTS);
+            let at = from.at + share(0.0) * (to.at - from.at) + 1e-9;
+            on_lines.push(Stamped { at, value: from.value + share(0.5) * (to.value - from.value) });
+        }
+    }
+    on_lines.extend(samples.last());
+    on_lines
+}
+
+/// Whether a machine's recording starts with references that are not 0: then it had gone there before.
+fn settles(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Recording) -> bool {
+    let first = recording.stamps.iter().filter_map(|stamps| stamps.first()).copied().fold(f64::INFINITY, f64::min);
+    let is_under_way = |(_, register): &(usize, RegisterId)| {
+        let is_level = plant.signal_map.signal(*register).kind == Kind::Level;
+        is_level && recording.values(*register).first().is_some_and(|told| told.at <= first && told.value != 0.0)
+    };
+    recording.step().is_none() && commanded.iter().any(is_under_way)
 }
 
 fn apart(run: &Run, signal: usize, pair: (&Predicted, &Predicted), residuals: &mut Vec<f64>) {
@@ -319,7 +410,7 @@ fn apart(run: &Run, signal: usize, pair: (&Predicted, &Predicted), residuals: &m
             residuals.extend(one.iter().zip(other).map(|(a, b)| (a - b) / sigma));
         }
         (Predicted::Edges { edges: one, .. }, Predicted::Edges { edges: other, .. }) => {
-            let sigma = run.edge_sigma.hypot(track.grid.cycle / 12.0_f64.sqrt());
+            let sigma = run.edge_sigmas[signal].hypot(track.grid.cycle / 12.0_f64.sqrt());
             let mut rest = other.iter().peekable();
             for edge in one {
                 // Whatever only one of them has is as far off as an edge can be.

@@ -43,7 +43,11 @@ pub(super) fn surround(
 ) {
     let script = match device.role() {
         Role::Carries(belt) => {
-            let geometry = Geometry { beams: belt.barriers, lengths: lengths(&belt.surface, sizes) };
+            let geometry = Geometry {
+                beams: belt.barriers,
+                lengths: lengths(&belt.surface, sizes),
+                tolerance: tolerance(&belt.surface),
+            };
             of_belt(&geometry, signals, device, run)
         }
         Role::Pushes(_) => of_pusher(signals, run),
@@ -64,6 +68,15 @@ fn lengths(surface: &Surface, sizes: &[[f64; 2]]) -> Vec<f64> {
     lengths.sort_by(f64::total_cmp);
     lengths.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
     lengths
+}
+
+/// How far a part's edges may be off because it lies askew or turns, m: measured on the line as its model has it, where boxes
+/// come onto a curve askew, and leave it so.
+fn tolerance(surface: &Surface) -> f64 {
+    match surface {
+        Surface::Straight { .. } => 1e-3,
+        Surface::Curve { .. } => 5e-3,
+    }
 }
 
 /// The places of the barriers among the signals.
@@ -92,6 +105,7 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
             track.origins = origins;
+            track.tolerance = geometry.tolerance;
         }
     }
     script

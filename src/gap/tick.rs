@@ -7,7 +7,7 @@
 
 use super::overrides::Overrides;
 use super::score::Score;
-use super::subject::Subject;
+use super::subject::{Subject, Timing};
 use crate::effect::EffectError;
 
 /// The ticks that are tried, s; 0: none.
@@ -41,7 +41,7 @@ pub(super) fn vote(subject: &Subject, at: usize, tick: f64) -> Result<Option<Vot
         let mut alone = subject.only(at);
         alone.set_tick(0, tick, command_tick);
         let nominal = alone.predict(&[], &Overrides::none())?;
-        alone.find_floors(&nominal);
+        alone.find_floors(&nominal, Timing::Exact);
         Ok(worst_level(&alone.score(&nominal)))
     };
     let Some(at_once) = cost(0.0)? else { return Ok(None) };

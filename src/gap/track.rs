@@ -21,6 +21,9 @@ pub struct Track {
     pub edges: Vec<Edge>,
     /// Of a barrier that parts pass: what each of the edges is to a score. Empty of every other signal, whose edges all count.
     pub origins: Vec<Origin>,
+    /// How far the parts that pass may be from where they are taken to be, beside what all of their edges share, m: they lie
+    /// askew on a belt, and on a curve they turn.
+    pub tolerance: f64,
     /// From which instants on (index into the grid) nothing counts, and until which; ascending.
     pub blind: Vec<(usize, usize)>,
 }
@@ -73,12 +76,39 @@ impl Track {
         Some(track)
     }
 
+    /// A counter that wraps, counted on: a jump of more than half of what it can count to is a wrap.
+    pub(super) fn unwrapped(mut self) -> Track {
+        let most = self.values.iter().copied().fold(0.0, f64::max);
+        let least = self.values.iter().copied().fold(0.0, f64::min);
+        // A DINT has both signs; fewer bits count from 0 up.
+        let period = if least < 0.0 { 4_294_967_296.0 } else { 2.0_f64.powf((most + 1.0).max(2.0).log2().ceil()) };
+        let mut turns = 0.0;
+        let mut before = self.values.first().copied().unwrap_or(0.0);
+        for value in &mut self.values {
+            let raw = *value;
+            turns += if raw - before < -0.75 * period { 1.0 } else { 0.0 }
+                - if raw - before > 0.75 * period { 1.0 } else { 0.0 };
+            *value = raw + turns * period;
+            before = raw;
+        }
+        self
+    }
+
     fn empty(grid: &Arc<Grid>, recording: &Recording, stamped: &[Stamped]) -> Option<Track> {
         let first = grid.index(stamped.first()?.at);
         let at = |instant: f64| grid.instants.partition_point(|at| *at < instant);
         let blind = recording.blind.iter().map(|span| (at(span.from), at(span.to))).collect();
         let grid = grid.clone();
-        Some(Track { grid, first, values: Vec::new(), initial: 0.0, edges: Vec::new(), origins: Vec::new(), blind })
+        Some(Track {
+            grid,
+            first,
+            values: Vec::new(),
+            initial: 0.0,
+            edges: Vec::new(),
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind,
+        })
     }
 
     /// Whether an instant of the grid is no evidence.

@@ -75,6 +75,7 @@ fn header(facts: &Facts) -> Header {
         step_ns: u64::try_from(facts.step.as_nanos()).ok(),
         seed: Some(facts.seed),
         model_hash: Some(model::hash(&facts.plant)),
+        ..Header::default()
     }
 }
 

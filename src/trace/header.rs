@@ -18,6 +18,23 @@ pub enum Source {
     Unknown,
 }
 
+/// What stands between two recorded commands of a level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Commands {
+    /// The earlier one, until the later one comes: messages.
+    #[default]
+    Held,
+    /// A straight line from one to the other: rows of a logger that sampled references under way.
+    Sampled,
+}
+
+impl Commands {
+    fn are_held(&self) -> bool {
+        *self == Commands::Held
+    }
+}
+
 /// What a trace says about itself. All but the source may be absent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Header {
@@ -42,6 +59,9 @@ pub struct Header {
     /// Tells models apart that have one name: made of the simulation's model, compared as it stands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model_hash: Option<String>,
+    /// What stands between two commands of one level: `held` where the header says nothing, or `sampled`.
+    #[serde(default, skip_serializing_if = "Commands::are_held")]
+    pub commands: Commands,
 }
 
 /// The word that makes it a header.
@@ -98,6 +118,7 @@ mod tests {
             step_ns: Some(1_000_000),
             seed: Some(u64::MAX),
             model_hash: Some("0123456789abcdef".to_owned()),
+            commands: Commands::Sampled,
         };
         assert_eq!(read_header(&write_header(&header)), Ok(header));
         assert_eq!(write_header(&Header::default()), r#"{"trace":"kinetwin/1","source":"unknown"}"#);

@@ -14,6 +14,10 @@
 //! until a line changes it; values that change together stand in one line. Lines with equal times keep their order, the
 //! automation's first.
 //!
+//! Between two commands a signal holds the earlier one. A header with `"commands":"sampled"` says otherwise: the recorded
+//! commands of levels are samples of references that moved on straight lines between them, as a logger's rows have it. A
+//! diagnosis goes by that.
+//!
 //! In a recording of ours, `t` is the simulated time of the step that took the command or produced the report, written
 //! as an exact decimal: it reads back to the same nanosecond.
 //!
@@ -39,7 +43,7 @@ mod tests;
 
 pub use cut::{CutError, Span, cut};
 pub use excitation::{Excitation, excitations};
-pub use header::{Header, Source};
+pub use header::{Commands, Header, Source};
 pub use info::{Info, SignalInfo, Silence, info};
 pub use motion::{Motion, motions};
 pub use reader::{Body, LINE_LIMIT, Line, Reader, Sender, Torn, TraceError};

@@ -1,0 +1,226 @@
+//! Which devices part from the machine by themselves, and which only pass on what came to them.
+//!
+//! A device has a gap of its own if what it predicts alone, driven by the recorded commands and by what its neighbours
+//! reported, is not what it reported. Three questions are asked of each of its signals, each with the threshold that the
+//! greatest of 400 chances would pass once in a hundred times (χ² with one degree of freedom: 17.8):
+//!
+//! - Is the cost above its floor, by more than the floor itself is uncertain?
+//! - Does what is left go with the motion: with the value, its slope, the sign of that, its curvature, the time, the way gone?
+//!   A level that is off by a tenth of its noise shows so, though its cost does not.
+//! - Do more edges lie outside of their cycles than strays would?
+//!
+//! What differs in a replay of the whole plant and not alone is inherited.
+
+use serde::Serialize;
+
+use super::floor::Floor;
+use super::prediction::{Predicted, Prediction};
+use super::score::{Score, SignalScore};
+use super::study::Study;
+use super::subject::Subject;
+use super::track::Track;
+use crate::replay::Report;
+use crate::signal_map::Kind;
+
+/// A statistic above this is no chance: χ² with one degree of freedom at 1 % over 400 tests.
+pub const THRESHOLD: f64 = 17.8;
+/// How much of a floor's cost is uncertain because its noise is an estimate.
+const FLOOR_UNCERTAINTY: f64 = 0.06;
+/// What moves by less than this share of a step says nothing of a device.
+const LEAST_OF_STEP: f64 = 0.1;
+
+/// Where the gaps are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Location {
+    /// All devices that were compared: those with a gap of their own first, the largest share first; then by name.
+    pub devices: Vec<Located>,
+}
+
+/// What is known of one device.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Located {
+    pub device: String,
+    /// Whether it has a gap of its own.
+    pub own: bool,
+    /// Whether it differs in a replay of the whole plant and not alone; `None` until a replay was looked at.
+    pub inherited: Option<bool>,
+    /// Its part of all own gaps, 0 to 1; 0 without one.
+    pub share: f64,
+    /// The greatest of its statistics, which a chance keeps below [`THRESHOLD`].
+    pub evidence: f64,
+    pub signals: Vec<LocatedSignal>,
+}
+
+/// How far a device's report is off.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LocatedSignal {
+    pub name: String,
+    /// `level` or `edge`.
+    pub kind: &'static str,
+    /// The SI unit of a level, `s` of an edge.
+    pub unit: String,
+    /// How many samples or edges were compared, in all recordings.
+    pub compared: usize,
+    /// RMS of the difference in `unit`; of an edge, of how far it lies outside of the cycle that showed it.
+    pub before: f64,
+    /// What that would be where nothing is wrong.
+    pub floor: f64,
+    /// Recorded edges that the model does not make, and those that it alone makes.
+    pub missing: usize,
+    pub extra: usize,
+    pub evidence: f64,
+    /// Its squared gap above the floor, in floors; what shares are made of.
+    pub excess: f64,
+}
+
+impl LocatedSignal {
+    /// Whether it is no chance.
+    pub fn is_off(&self) -> bool {
+        self.evidence > THRESHOLD
+    }
+}
+
+impl Location {
+    /// Looks at a replay of the whole plant: a device whose edges differ there and that has no gap of its own inherits one.
+    /// (Levels are the drives' own: what a drive reports comes from nobody else.)
+    pub fn inherit(&mut self, replay: &Report) {
+        let differing: Vec<&str> =
+            replay.edges.iter().filter(|edge| edge.differs).map(|edge| edge.name.as_str()).collect();
+        for device in &mut self.devices {
+            let differs = device.signals.iter().any(|signal| differing.contains(&signal.name.as_str()));
+            device.inherited = Some(differs && !device.own);
+        }
+    }
+}
+
+/// Looks where the gaps are.
+pub fn locate(study: &Study) -> Location {
+    let scores = study.scores();
+    let each = study.subjects.iter().zip(&study.nominal).zip(&scores);
+    let mut devices: Vec<Located> = each.map(|((subject, nominal), score)| located(subject, nominal, score)).collect();
+    let excess = |device: &Located| device.signals.iter().map(|signal| signal.excess).sum::<f64>();
+    let total: f64 = devices.iter().filter(|device| device.own).map(excess).sum();
+    for device in devices.iter_mut().filter(|device| device.own) {
+        device.share = if total > 0.0 { excess(device) / total } else { 0.0 };
+    }
+    devices.sort_by(|a, b| b.own.cmp(&a.own).then(b.share.total_cmp(&a.share)).then(a.device.cmp(&b.device)));
+    Location { devices }
+}
+
+fn located(subject: &Subject, nominal: &Prediction, score: &Score) -> Located {
+    let signals: Vec<LocatedSignal> = (0..subject.signals.len())
+        .filter_map(|place| {
+            let of: Vec<&SignalScore> = score.signals.iter().filter(|signal| signal.signal == place).collect();
+            (!of.is_empty()).then(|| signal(subject, nominal, place, &of))
+        })
+        .collect();
+    let evidence = signals.iter().map(|signal| signal.evidence).fold(0.0, f64::max);
+    Located { device: subject.name.clone(), own: evidence > THRESHOLD, inherited: None, share: 0.0, evidence, signals }
+}
+
+fn signal(subject: &Subject, nominal: &Prediction, place: usize, scores: &[&SignalScore]) -> LocatedSignal {
+    let info = &subject.signals[place];
+    let compared = |score: &SignalScore| score.level.as_ref().map_or(score.edges.len(), |level| level.at.len());
+    let total: usize = scores.iter().map(|score| compared(score)).sum();
+    let mean = |of: fn(&SignalScore) -> f64| {
+        let sum: f64 = scores.iter().map(|score| of(score).powi(2) * compared(score) as f64).sum();
+        (sum / total.max(1) as f64).sqrt()
+    };
+    let (before, floor) = (mean(|score| score.rms), mean(|score| score.floor));
+    let evidence = |score: &&SignalScore| {
+        let with_motion = match (&subject.runs[score.run].tracks[place], &nominal.runs[score.run][place]) {
+            (Some(track), Predicted::Level(values)) => {
+                with_motion(score, track, values, subject.runs[score.run].floors[place])
+            }
+            _ => 0.0,
+        };
+        above_floor(score).max(with_motion)
+    };
+    let evidence = scores.iter().map(evidence).fold(0.0, f64::max);
+    let (missing, extra) = scores.iter().fold((0, 0), |(m, e), score| (m + score.missing(), e + score.extra()));
+    let alone = (missing + extra) as f64 / total.max(1) as f64;
+    let width = scores.iter().map(|score| cycle(subject, place, score)).fold(1e-6, f64::max) / 12.0_f64.sqrt();
+    let excess = match info.kind {
+        Kind::Level => (before / floor.max(f64::MIN_POSITIVE)).powi(2) - 1.0,
+        // An edge alone is as far off as one by ten cycles.
+        Kind::Edge => (before / width).powi(2) + alone * 1200.0,
+    };
+    LocatedSignal {
+        name: info.name.clone(),
+        kind: if info.kind == Kind::Level { "level" } else { "edge" },
+        unit: if info.kind == Kind::Level { info.unit.clone() } else { "s".to_owned() },
+        compared: total,
+        before,
+        floor,
+        missing,
+        extra,
+        evidence,
+        excess: if evidence > THRESHOLD { excess.max(0.0) } else { 0.0 },
+    }
+}
+
+fn cycle(subject: &Subject, place: usize, score: &SignalScore) -> f64 {
+    subject.runs[score.run].tracks[place].as_ref().map_or(0.0, |track| track.grid.cycle)
+}
+
+/// How far the cost is above its floor: for a level as the square of a normal deviate, for edges as a deviance.
+fn above_floor(score: &SignalScore) -> f64 {
+    let (mean, variance) = score.floor_cost;
+    let above = score.cost - mean;
+    if above <= THRESHOLD {
+        return above.max(0.0);
+    }
+    match score.level {
+        None => above,
+        Some(_) => above * above / (variance + (FLOOR_UNCERTAINTY * mean).powi(2)).max(1.0),
+    }
+}
+
+/// The greatest gain by one regressor of the motion: what of the cost a multiple of it would take away.
+fn with_motion(score: &SignalScore, track: &Track, predicted: &[f64], floor: Floor) -> f64 {
+    let Some(level) = &score.level else { return 0.0 };
+    let count = level.residual.len();
+    // In a recording with blind spans samples are left out; the two lists run side by side only without.
+    if count < 50 || predicted.len() != count || track.values.len() != count {
+        return 0.0;
+    }
+    let unit = (score.floor_cost.0 / counted(level.cost.as_slice()).max(1.0)).max(0.02);
+    let gain = |regressor: &[f64]| {
+        let mean = regressor.iter().sum::<f64>() / count as f64;
+        let pairs = || regressor.iter().zip(&level.residual).map(|(x, r)| (x - mean, *r));
+        let (xx, xr) = pairs().fold((0.0, 0.0), |(xx, xr), (x, r)| (xx + x * x, xr + x * r));
+        if xx <= 0.0 {
+            return 0.0;
+        }
+        // As a difference of the level: it must be worth a part of a step.
+        let differences = regressor.iter().zip(&level.difference).map(|(x, d)| (x - mean) * d).sum::<f64>();
+        let moves = (differences * differences / xx / count as f64).sqrt();
+        if moves > LEAST_OF_STEP * floor.step { xr * xr / xx / unit } else { 0.0 }
+    };
+    regressors(&level.at, predicted).iter().map(|regressor| gain(regressor)).fold(0.0, f64::max)
+}
+
+fn counted(costs: &[f64]) -> f64 {
+    costs.iter().filter(|cost| **cost > 0.0).count() as f64
+}
+
+/// What of a motion an effect's trace may go with, at each sample.
+fn regressors(at: &[f64], value: &[f64]) -> [Vec<f64>; 6] {
+    let count = value.len();
+    let slope: Vec<f64> = (0..count)
+        .map(|k| {
+            let (low, high) = (k.saturating_sub(1), (k + 1).min(count - 1));
+            (value[high] - value[low]) / (at[high] - at[low]).max(1e-9)
+        })
+        .collect();
+    let curve: Vec<f64> = (0..count).map(|k| slope[(k + 1).min(count - 1)] - slope[k.saturating_sub(1)]).collect();
+    let steepest = slope.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
+    let sign = slope.iter().map(|s| if s.abs() > 0.01 * steepest { s.signum() } else { 0.0 }).collect();
+    let mut way = 0.0;
+    let ways = value.windows(2).map(|pair| {
+        way += (pair[1] - pair[0]).abs();
+        way
+    });
+    let ways: Vec<f64> = std::iter::once(0.0).chain(ways).collect();
+    [value.to_vec(), slope, curve, sign, at.to_vec(), ways]
+}

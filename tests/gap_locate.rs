@@ -1,0 +1,117 @@
+//! Where a model parts from a machine: on recordings of a rig that is not ours, and on a line with one slow conveyor.
+//!
+//! The rig's recordings are not part of the project: where they do not lie beside it, the tests say so and pass.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+use std::time::Duration;
+
+use kinetwin::device::KINDS;
+use kinetwin::gap::{Location, Recording, Study, locate};
+use kinetwin::plant::{self, embedded::Embedded};
+use kinetwin::run::{self, Connect, Options, RecordTo, Speed};
+use kinetwin::trace::Reader;
+
+const RECORDINGS: &str = "../shared/data/rig-sample";
+
+fn locate_in(model: &str, path: &Path) -> Location {
+    let plant = plant::load(&Embedded, model, KINDS).expect("the model");
+    let name = path.display().to_string();
+    let reader = Reader::new(&name, BufReader::new(File::open(path).expect("it opens"))).expect("a trace");
+    let recording = Recording::read(&plant, &name, reader, &[]).expect("a recording of the plant");
+    let study = Study::new(&plant, &[recording]).expect("a study");
+    let location = locate(&study);
+    for device in location.devices.iter().filter(|device| device.own) {
+        println!("{name}: {device:?}");
+    }
+    location
+}
+
+fn own(location: &Location) -> Vec<&str> {
+    location.devices.iter().filter(|device| device.own).map(|device| device.device.as_str()).collect()
+}
+
+/// Both recordings of a case name these devices, the largest share first, and no other.
+fn check(case: &str, devices: &[&str]) {
+    for file in ["train", "holdout"] {
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(RECORDINGS).join(case).join(format!("{file}.cps.jsonl.zst"));
+        if !path.exists() {
+            println!("skipped: no recording at {}", path.display());
+            continue;
+        }
+        let location = locate_in("models/rig", &path);
+        assert_eq!(own(&location), devices, "{case} {file}");
+        let shares: f64 = location.devices.iter().map(|device| device.share).sum();
+        assert!((shares - if devices.is_empty() { 0.0 } else { 1.0 }).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_rig_built_to_the_table_has_no_gap() {
+    check("case-01", &[]);
+    check("case-02", &[]);
+}
+
+#[test]
+fn a_late_gripper_is_the_grippers_own() {
+    check("case-03", &["Gripper"]);
+}
+
+#[test]
+fn three_parts_in_ten_thousand_of_a_speed_add_up_in_the_encoder() {
+    check("case-04", &["Motor"]);
+}
+
+#[test]
+fn an_axis_that_accelerates_less_is_the_robots() {
+    check("case-05", &["Robot"]);
+}
+
+#[test]
+fn friction_and_a_wobbling_screw_are_the_axis_s() {
+    check("case-06", &["Axis"]);
+    check("case-08", &["Axis"]);
+}
+
+#[test]
+fn two_gaps_on_two_devices_are_both_named() {
+    check("case-07", &["Robot", "Belt"]);
+}
+
+/// Runs the line, with `effect` on its Conveyor5, under its automation, and records it.
+fn record_line(folder: &Path, effect: &str) -> std::path::PathBuf {
+    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join("models/depalletizer/plant.xml");
+    let text = std::fs::read_to_string(base).expect("the line's plant");
+    let model = folder.join("plant.xml");
+    let (before, after) = text.split_once(r#"<instance name="Conveyor5""#).expect("the conveyor");
+    let after = after.replacen("</instance>", &format!("{effect}</instance>"), 1);
+    std::fs::write(&model, format!(r#"{before}<instance name="Conveyor5"{after}"#)).expect("a plant");
+    let path = folder.join("line.cps.jsonl");
+    let options = Options {
+        connect: Some(Connect::Embedded),
+        seed: 5,
+        speed: Speed::Max,
+        duration: Some(Duration::from_secs(60)),
+        record: Some(RecordTo { path: path.clone(), replace: false }),
+        ..Options::new(model.to_str().expect("a path"))
+    };
+    run::start(&options).expect("the run starts").finish().expect("the run ends");
+    path
+}
+
+#[test]
+fn a_line_built_to_its_model_has_no_gap() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = locate_in("models/depalletizer", &record_line(folder.path(), ""));
+    assert_eq!(own(&location), [""; 0]);
+}
+
+#[test]
+fn a_slow_conveyor_is_named_and_none_behind_it() {
+    let slip = r#"<effect place="transmission" kind="belt-slip"><parameter name="ratio" value="0.06"/></effect>"#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = locate_in("models/depalletizer", &record_line(folder.path(), slip));
+    assert_eq!(own(&location), ["Conveyor5"]);
+}
