@@ -1,7 +1,7 @@
 //! One axis of a robot on its profile, with what stands in its signal path.
 
 use super::law::profile::{Limits, Profile};
-use super::law::{SAME_VALUE, STANDSTILL};
+use super::law::{SAME_INSTANT_S, SAME_VALUE, STANDSTILL};
 use super::path::{Bounds, Moment, Motion, Stages};
 
 /// An axis, its motor's side and its load's side.
@@ -33,7 +33,7 @@ impl Axis {
 
     /// Within its tolerance of where it was last told to go, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
     pub fn arrived(&mut self) -> bool {
-        let is_there = is_there(self.motor(), self.target, self.tolerance);
+        let is_there = self.is_there(self.motor());
         let moment = self.stages.moment();
         self.stages.actuator.arrived(is_there, moment)
     }
@@ -44,18 +44,13 @@ impl Axis {
         if self.stages.is_nominal() {
             self.profile.retarget(target);
         } else {
-            let moment = self.stages.moment();
-            pass(&mut self.stages, &mut self.profile, self.limits, target, self.motor, moment);
+            self.pass(self.stages.moment());
         }
     }
 
     /// The motor's side: what the axis's own controller sees.
     pub fn motor(&self) -> Motion {
-        if self.stages.is_nominal() {
-            Motion { position: self.profile.position(), velocity: self.profile.velocity() }
-        } else {
-            self.motor
-        }
+        if self.stages.is_nominal() { motion(&self.profile) } else { self.motor }
     }
 
     /// The load's side: where the tool is.
@@ -63,21 +58,77 @@ impl Axis {
         if self.stages.is_nominal() { self.motor() } else { self.load }
     }
 
+    /// It holds so many parts.
+    pub fn loaded(&mut self, parts: u32) {
+        if self.stages.loaded(f64::from(parts), 0.0) {
+            self.pass(self.stages.moment());
+        }
+    }
+
+    /// So many others on its supply move.
+    pub fn shared(&mut self, others: u32) {
+        if self.stages.shared(f64::from(others)) {
+            self.pass(self.stages.moment());
+        }
+    }
+
     /// Moves by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
         if self.stages.is_nominal() {
             return self.profile.advance(seconds);
         }
-        let Axis { limits, tolerance, profile, target, stages, motor, load } = self;
-        stages.stretches(seconds, |stages, moment| {
-            profile.advance(moment.span);
-            let law = Motion { position: profile.position(), velocity: profile.velocity() };
-            *motor = stages.actuator.motion(law, moment);
-            *load = stages.transmission.motion(*motor, moment);
-            // A stage that waits for the arrival sees it at the end of every stretch.
-            stages.actuator.arrived(is_there(*motor, *target, *tolerance), moment);
-            pass(stages, profile, *limits, *target, *motor, moment);
-        });
+        let mut stages = std::mem::take(&mut self.stages);
+        stages.stretches(
+            seconds,
+            self,
+            |axis| axis.profile.steady(),
+            |axis, stages, moment| {
+                let start = axis.profile;
+                let was_there = axis.is_there(axis.motor);
+                axis.profile.advance(moment.span);
+                let law = motion(&axis.profile);
+                axis.motor = stages.actuator.motion(law, moment);
+                axis.load = stages.transmission.motion(axis.motor, moment);
+                // A stage that waits for the arrival sees it at its instant.
+                let is_there = axis.is_there(axis.motor);
+                if is_there && !was_there && axis.motor == law {
+                    let now = moment.now - moment.span + axis.arrival(start, moment.span);
+                    stages.actuator.arrived(true, Moment { now, span: 0.0 });
+                }
+                stages.actuator.arrived(is_there, moment);
+                std::mem::swap(&mut axis.stages, stages);
+                axis.pass(moment);
+                std::mem::swap(&mut axis.stages, stages);
+            },
+        );
+        self.stages = stages;
+    }
+
+    fn is_there(&self, motion: Motion) -> bool {
+        (motion.position - self.target).abs() <= self.tolerance + SAME_VALUE && motion.velocity.abs() < STANDSTILL
+    }
+
+    /// When within `span` the profile that starts as `start` is there.
+    fn arrival(&self, start: Profile, span: f64) -> f64 {
+        let (mut before, mut after) = (0.0, span);
+        while after - before > SAME_INSTANT_S {
+            let middle = 0.5 * (before + after);
+            let mut profile = start;
+            profile.advance(middle);
+            if self.is_there(motion(&profile)) { after = middle } else { before = middle }
+        }
+        after
+    }
+
+    /// Lets the target pass the actuator's stages and gives the profile what comes out.
+    fn pass(&mut self, moment: Moment) {
+        let Axis { limits: Limits { velocity, acceleration }, profile, target, stages, motor, .. } = self;
+        let (velocity, acceleration) = (*velocity, *acceleration);
+        let bounds = Bounds { velocity, acceleration, deceleration: acceleration, force: f64::INFINITY };
+        let bounds = stages.actuator.bounds(bounds, *motor, moment);
+        let bounds = stages.load.bounds(bounds, *motor, moment);
+        profile.limit(Limits { velocity: bounds.velocity, acceleration: bounds.acceleration.min(bounds.deceleration) });
+        profile.retarget(stages.actuator.reference(*target, *motor, moment));
     }
 
     /// Its numbers, for a state's hash.
@@ -87,15 +138,6 @@ impl Axis {
     }
 }
 
-fn is_there(motion: Motion, target: f64, tolerance: f64) -> bool {
-    (motion.position - target).abs() <= tolerance + SAME_VALUE && motion.velocity.abs() < STANDSTILL
-}
-
-/// Lets the target pass the actuator's stages and gives the profile what comes out.
-fn pass(stages: &mut Stages, profile: &mut Profile, limits: Limits, target: f64, motion: Motion, moment: Moment) {
-    let Limits { velocity, acceleration } = limits;
-    let bounds = Bounds { velocity, acceleration, deceleration: acceleration, force: f64::INFINITY };
-    let bounds = stages.actuator.bounds(bounds, motion, moment);
-    profile.limit(Limits { velocity: bounds.velocity, acceleration: bounds.acceleration.min(bounds.deceleration) });
-    profile.retarget(stages.actuator.reference(target, motion, moment));
+fn motion(profile: &Profile) -> Motion {
+    Motion { position: profile.position(), velocity: profile.velocity() }
 }

@@ -88,6 +88,11 @@ impl Bench {
         self.device.sense(&Surroundings { sealed, ..Surroundings::default() });
     }
 
+    /// It carries or pushes so many parts, so many of them held back.
+    pub fn load(&mut self, parts: u32, queued: u32) {
+        self.device.sense(&Surroundings { parts, queued, ..Surroundings::default() });
+    }
+
     /// How far its belt moved in the last span.
     pub fn displacement(&self) -> f64 {
         match self.device.role() {

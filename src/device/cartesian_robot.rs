@@ -143,7 +143,7 @@ impl Device for CartesianRobot {
 
     fn sense(&mut self, surroundings: &Surroundings) {
         for axis in &mut self.axes {
-            axis.stages.loaded(f64::from(surroundings.parts), 0.0);
+            axis.loaded(surroundings.parts);
         }
     }
 
@@ -155,7 +155,7 @@ impl Device for CartesianRobot {
     fn share(&mut self, others: u32) {
         let all = others + self.moving();
         for axis in &mut self.axes {
-            axis.stages.shared(f64::from(all - u32::from(moves(axis.motor().velocity))));
+            axis.shared(all - u32::from(moves(axis.motor().velocity)));
         }
     }
 

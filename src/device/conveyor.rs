@@ -151,7 +151,7 @@ impl Device for Conveyor {
 
     fn sense(&mut self, surroundings: &Surroundings) {
         self.beams = [surroundings.barrier_a, surroundings.barrier_b];
-        self.drive.stages.loaded(f64::from(surroundings.parts), f64::from(surroundings.queued));
+        self.drive.loaded(surroundings.parts, surroundings.queued);
     }
 
     fn advance(&mut self, seconds: f64) {
@@ -199,7 +199,7 @@ impl Device for Conveyor {
     }
 
     fn share(&mut self, others: u32) {
-        self.drive.stages.shared(f64::from(others));
+        self.drive.shared(others);
     }
 
     fn role(&self) -> Role<'_> {

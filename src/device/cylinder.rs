@@ -13,6 +13,10 @@ pub(super) struct Cylinder {
     /// What its valve does, after the actuator's stages.
     valve: Drive,
     pub stages: Stages,
+    /// How steeply it slows down while it is held, m/s²: nominally it stands at once.
+    coasting: f64,
+    /// The speed that it is driven or carried on with, m/s.
+    speed: f64,
     piston: Motion,
     rod: Motion,
 }
@@ -26,6 +30,8 @@ impl Cylinder {
             drive: Drive::Hold,
             valve: Drive::Hold,
             stages: Stages::default(),
+            coasting: f64::INFINITY,
+            speed: 0.0,
             piston: Motion::default(),
             rod: Motion::default(),
         }
@@ -44,6 +50,7 @@ impl Cylinder {
 
     /// Lets the command pass the actuator's stages and sets valve and throttles to what comes out.
     fn pass(&mut self, moment: Moment) {
+        let before = self.speed;
         let Cylinder { settings, stroke, drive, valve, stages, piston, .. } = self;
         if stages.is_nominal() {
             *valve = *drive;
@@ -62,13 +69,29 @@ impl Cylinder {
             deceleration: f64::INFINITY,
             force: f64::INFINITY,
         };
-        let fastest = stages.actuator.bounds(bounds, *piston, moment).velocity;
+        let bounds = stages.actuator.bounds(bounds, *piston, moment);
+        let fastest = bounds.velocity;
+        self.coasting = bounds.deceleration;
         let mut speed = |nominal: f64| stages.actuator.reference(nominal, *piston, moment).abs().min(fastest);
         match valve {
             Drive::Hold => {}
             Drive::Extend => stroke.limit(speed(settings.extend_speed), settings.retract_speed),
             Drive::Retract => stroke.limit(settings.extend_speed, speed(-settings.retract_speed)),
         }
+        if *valve != Drive::Hold || self.coasting.is_infinite() {
+            self.speed = stroke.velocity(*valve);
+        }
+        if self.speed != before {
+            // There is no ramp: it moves from this very instant.
+            self.follow(Moment { span: 0.0, ..moment });
+        }
+    }
+
+    /// Lets piston and rod follow what the law has come to.
+    fn follow(&mut self, moment: Moment) {
+        let law = Motion { position: self.stroke.position(), velocity: self.speed };
+        self.piston = self.stages.actuator.motion(law, moment);
+        self.rod = self.stages.transmission.motion(self.piston, moment);
     }
 
     /// The rod's motion: what the plate does, and what the switches see.
@@ -87,17 +110,57 @@ impl Cylinder {
         }
         let start = self.rod.position;
         let mut stages = std::mem::take(&mut self.stages);
-        stages.stretches(seconds, |stages, moment| {
-            let way = self.stroke.advance(self.valve, moment.span);
-            let law = Motion { position: self.stroke.position(), velocity: way / moment.span };
-            self.piston = stages.actuator.motion(law, moment);
-            self.rod = stages.transmission.motion(self.piston, moment);
-            std::mem::swap(&mut self.stages, stages);
-            self.pass(moment);
-            std::mem::swap(&mut self.stages, stages);
-        });
+        stages.stretches(
+            seconds,
+            self,
+            |cylinder| cylinder.steady(),
+            |cylinder, stages, moment| {
+                std::mem::swap(&mut cylinder.stages, stages);
+                cylinder.move_by(moment.span);
+                cylinder.follow(moment);
+                cylinder.pass(moment);
+                std::mem::swap(&mut cylinder.stages, stages);
+            },
+        );
         self.stages = stages;
         self.rod.position - start
+    }
+
+    /// Moves by `span`, driven by its valve, or carried on while it is held; no further than to where it comes to rest.
+    fn move_by(&mut self, span: f64) {
+        if self.valve != Drive::Hold {
+            self.stroke.advance(self.valve, span);
+            self.speed = self.stroke.velocity(self.valve);
+        } else if self.speed != 0.0 {
+            let seconds = span.min(self.steady());
+            let lost = self.coasting * seconds;
+            let end = self.speed.signum() * (self.speed.abs() - lost).max(0.0);
+            let way = 0.5 * (self.speed + end) * seconds;
+            let is_stopped = (self.stroke.drift(way) - way).abs() > SAME_VALUE;
+            self.speed = if is_stopped || end.abs() < SAME_VALUE { 0.0 } else { end };
+        }
+    }
+
+    /// For how long it goes on as it does, s.
+    fn steady(&self) -> f64 {
+        match self.valve {
+            Drive::Hold if self.speed != 0.0 => self.speed.abs() / self.coasting,
+            valve => self.stroke.steady(valve),
+        }
+    }
+
+    /// It pushes so many parts.
+    pub fn loaded(&mut self, parts: u32, queued: u32) {
+        if self.stages.loaded(f64::from(parts), f64::from(queued)) {
+            self.pass(self.stages.moment());
+        }
+    }
+
+    /// So many others on its supply move.
+    pub fn shared(&mut self, others: u32) {
+        if self.stages.shared(f64::from(others)) {
+            self.pass(self.stages.moment());
+        }
     }
 
     /// Whether the rod is within the tolerance of the extended end, the tolerance included.
@@ -114,6 +177,9 @@ impl Cylinder {
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {
         visit(self.stroke.position());
         visit(f64::from(self.valve as u8));
+        if !self.stages.is_nominal() {
+            visit(self.speed);
+        }
         self.stages.state(visit);
     }
 }

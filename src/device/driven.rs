@@ -2,7 +2,7 @@
 
 use super::law::drive::{Drive, DriveSettings};
 use super::law::sum::Sum;
-use super::path::{Bounds, Motion, Stages};
+use super::path::{Bounds, Moment, Motion, Stages};
 
 /// A drive, its motor's side and its load's side. They part only where a stage of the transmission says so.
 #[derive(Clone, Debug)]
@@ -45,9 +45,7 @@ impl Driven {
         } else {
             // A drive that is still on though told to be off goes on as it went.
             self.reference = if enabled { reference } else { self.reference };
-            let moment = self.stages.moment();
-            let command = (enabled, self.reference);
-            pass(&mut self.stages, &mut self.drive, self.settings, command, self.motor, moment);
+            self.pass(self.stages.moment());
         }
     }
 
@@ -76,6 +74,20 @@ impl Driven {
         if self.stages.is_nominal() { self.travel.value() } else { self.carried }
     }
 
+    /// So many parts stand on what it moves, so many of them held back.
+    pub fn loaded(&mut self, parts: u32, queued: u32) {
+        if self.stages.loaded(f64::from(parts), f64::from(queued)) {
+            self.pass(self.stages.moment());
+        }
+    }
+
+    /// So many others on its supply move.
+    pub fn shared(&mut self, others: u32) {
+        if self.stages.shared(f64::from(others)) {
+            self.pass(self.stages.moment());
+        }
+    }
+
     /// Moves by `seconds` and returns the way gone by what the load carries: nominally that of the load's side.
     pub fn advance(&mut self, seconds: f64) -> f64 {
         if self.stages.is_nominal() {
@@ -84,18 +96,46 @@ impl Driven {
             return way;
         }
         let start = self.carried;
-        let Driven { settings, drive, enabled, reference, travel, stages, motor, load, carried } = self;
-        stages.stretches(seconds, |stages, moment| {
-            travel.add(drive.advance(moment.span));
-            let law = Motion { position: travel.value(), velocity: drive.velocity() };
-            *motor = stages.actuator.motion(law, moment);
-            let before = *load;
-            *load = stages.transmission.motion(*motor, moment);
-            let way = load.position - before.position;
-            *carried += stages.process.carried(way, load.velocity, before.velocity, moment);
-            pass(stages, drive, *settings, (*enabled, *reference), *motor, moment);
-        });
+        let mut stages = std::mem::take(&mut self.stages);
+        stages.stretches(
+            seconds,
+            self,
+            |driven| driven.drive.steady(),
+            |driven, stages, moment| {
+                driven.travel.add(driven.drive.advance(moment.span));
+                let law = Motion { position: driven.travel.value(), velocity: driven.drive.velocity() };
+                driven.motor = stages.actuator.motion(law, moment);
+                let before = driven.load;
+                driven.load = stages.transmission.motion(driven.motor, moment);
+                let way = driven.load.position - before.position;
+                driven.carried += stages.process.carried(way, driven.load.velocity, before.velocity, moment);
+                std::mem::swap(&mut driven.stages, stages);
+                driven.pass(moment);
+                std::mem::swap(&mut driven.stages, stages);
+            },
+        );
+        self.stages = stages;
         self.carried - start
+    }
+
+    /// Lets the command pass the actuator's stages and gives the drive what comes out.
+    fn pass(&mut self, moment: Moment) {
+        let Driven { settings, drive, enabled, reference, stages, motor, .. } = self;
+        let on = stages.actuator.switched(*enabled, moment);
+        let coasting = settings.coasting.filter(|_| !on);
+        let bounds = Bounds {
+            velocity: f64::INFINITY,
+            acceleration: settings.slopes.rising,
+            deceleration: coasting.unwrap_or(settings.slopes.falling),
+            force: f64::INFINITY,
+        };
+        let bounds = stages.actuator.bounds(bounds, *motor, moment);
+        let reference = stages.actuator.reference(*reference, *motor, moment);
+        match coasting {
+            Some(_) => drive.coast(bounds.deceleration),
+            None => drive.limit(bounds.acceleration, bounds.deceleration),
+        }
+        drive.command(on, reference.clamp(-bounds.velocity, bounds.velocity));
     }
 
     /// Its numbers, for a state's hash.
@@ -107,26 +147,4 @@ impl Driven {
             visit(self.carried);
         }
     }
-}
-
-/// Lets the command pass the actuator's stages and gives the drive what comes out.
-fn pass(
-    stages: &mut Stages,
-    drive: &mut Drive,
-    settings: DriveSettings,
-    (enabled, reference): (bool, f64),
-    motion: Motion,
-    moment: super::path::Moment,
-) {
-    let on = stages.actuator.switched(enabled, moment);
-    let bounds = Bounds {
-        velocity: f64::INFINITY,
-        acceleration: settings.slopes.rising,
-        deceleration: settings.slopes.falling,
-        force: f64::INFINITY,
-    };
-    let bounds = stages.actuator.bounds(bounds, motion, moment);
-    let reference = stages.actuator.reference(reference, motion, moment);
-    drive.limit(bounds.acceleration, bounds.deceleration);
-    drive.command(on, reference.clamp(-bounds.velocity, bounds.velocity));
 }

@@ -118,7 +118,7 @@ impl Device for EncoderMotor {
     }
 
     fn share(&mut self, others: u32) {
-        self.drive.stages.shared(f64::from(others));
+        self.drive.shared(others);
     }
 }
 

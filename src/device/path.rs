@@ -135,7 +135,7 @@ pub trait Stage: Send + Sync + fmt::Debug {
     }
 
     /// The force of a drive passes on its way to the axis, N or N·m: `effort` is what it will be at the end of the stretch,
-    /// the result what it is in the stretch's mean. Only where [`shapes_effort`](Stage::shapes_effort).
+    /// the result what it is in the stretch's mean; over a span of 0 it jumped to `effort`. Only where [`shapes_effort`](Stage::shapes_effort).
     fn effort(&mut self, effort: f64, _moment: Moment) -> f64 {
         effort
     }
@@ -320,6 +320,8 @@ pub struct Stages {
     pub transmission: Path,
     pub load: Path,
     pub process: Path,
+    /// What the stages were last told of parts, of parts held back, and of others on the supply.
+    told: [f64; 3],
     now: Sum,
 }
 
@@ -360,18 +362,24 @@ impl Stages {
         self.shapes_effort
     }
 
-    /// See [`Stage::loaded`].
-    pub fn loaded(&mut self, parts: f64, queued: f64) {
-        if self.has_any {
+    /// See [`Stage::loaded`]. Returns whether that is news to any stage.
+    pub fn loaded(&mut self, parts: f64, queued: f64) -> bool {
+        let is_news = self.has_any && self.told[..2] != [parts, queued];
+        if is_news {
+            self.told[..2].copy_from_slice(&[parts, queued]);
             self.each(|stage| stage.loaded(parts, queued));
         }
+        is_news
     }
 
-    /// See [`Stage::shared`].
-    pub fn shared(&mut self, others: f64) {
-        if self.has_any {
+    /// See [`Stage::shared`]. Returns whether that is news to any stage.
+    pub fn shared(&mut self, others: f64) -> bool {
+        let is_news = self.has_any && self.told[2] != others;
+        if is_news {
+            self.told[2] = others;
             self.each(|stage| stage.shared(others));
         }
+        is_news
     }
 
     /// Lets time pass where nothing moves in stages.
@@ -384,27 +392,37 @@ impl Stages {
         Moment { now: self.now.value(), span: 0.0 }
     }
 
-    /// Moves by `seconds` in stretches that end where a stage foresees a change, and gives each to `stretch`: the moment
-    /// at its end.
-    pub fn stretches(&mut self, seconds: f64, mut stretch: impl FnMut(&mut Stages, Moment)) {
+    /// Moves `law` by `seconds` in stretches, and gives each to `stretch`: the moment at its end. One ends where a stage
+    /// foresees a change, and where the law does: `steady` says for how long from now on it goes on as it does, so that a
+    /// stage that is exact for a parabola, or a straight line, never meets a kink within a stretch.
+    pub fn stretches<L>(
+        &mut self,
+        seconds: f64,
+        law: &mut L,
+        steady: impl Fn(&L) -> f64,
+        mut stretch: impl FnMut(&mut L, &mut Stages, Moment),
+    ) {
         let mut rest = seconds;
         while rest > 0.0 {
             let change = self.paths().iter().filter_map(|path| path.next_change()).min_by(f64::total_cmp);
             let until = change.map_or(f64::INFINITY, |at| at - self.now.value());
             // A change that is due, or so near that time would not move, does not hold time up.
-            let until = if until > SAME_INSTANT_S { until } else { f64::INFINITY };
-            let span = rest.min(self.longest).min(until);
+            let ahead = |until: f64| if until > SAME_INSTANT_S { until } else { f64::INFINITY };
+            let span = rest.min(self.longest).min(ahead(until)).min(ahead(steady(law)));
             // What rounding leaves of the whole is no stretch of its own.
             let span = if rest - span < SAME_INSTANT_S { rest } else { span };
             rest -= span;
             self.now.add(span);
             let moment = Moment { now: self.now.value(), span };
-            stretch(self, moment);
+            stretch(law, self, moment);
         }
     }
 
     /// See [`Stage::state`].
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {
+        if self.has_any {
+            self.told.iter().for_each(|number| visit(*number));
+        }
         for path in self.paths() {
             path.state(visit);
         }

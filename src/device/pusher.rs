@@ -100,7 +100,7 @@ impl Device for Pusher {
 
     fn sense(&mut self, surroundings: &Surroundings) {
         self.beams = [surroundings.barrier_a, surroundings.barrier_b];
-        self.cylinder.stages.loaded(f64::from(surroundings.parts), f64::from(surroundings.queued));
+        self.cylinder.loaded(surroundings.parts, surroundings.queued);
     }
 
     fn advance(&mut self, seconds: f64) {
@@ -147,7 +147,7 @@ impl Device for Pusher {
     }
 
     fn share(&mut self, others: u32) {
-        self.cylinder.stages.shared(f64::from(others));
+        self.cylinder.shared(others);
     }
 
     fn role(&self) -> Role<'_> {

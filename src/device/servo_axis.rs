@@ -204,6 +204,7 @@ impl ServoAxis {
     fn steady(&self) -> f64 {
         match (self.mode, self.position_target.lasts()) {
             (Mode::Cascade { feedforward, .. }, lasts) if feedforward != 0.0 && lasts > 0.0 => lasts,
+            (Mode::Ideal, lasts) if lasts > 0.0 => lasts,
             _ => f64::INFINITY,
         }
     }
@@ -230,11 +231,27 @@ const HALVINGS: u32 = 20;
 impl ServoAxis {
     fn advance_with_stages(&mut self, seconds: f64) {
         let mut stages = std::mem::take(&mut self.stages);
-        stages.stretches(seconds, |stages, moment| {
-            self.position_target.advance(moment.span);
-            self.motor = if self.mode == Mode::Ideal { self.track(stages, moment) } else { self.drive(stages, moment) };
-            self.load = stages.transmission.motion(self.motor, moment);
-        });
+        stages.stretches(
+            seconds,
+            self,
+            |axis| axis.steady(),
+            |axis, stages, moment| {
+                let is_ideal = axis.mode == Mode::Ideal;
+                if is_ideal {
+                    axis.motor = axis.track(stages, moment);
+                    axis.load = stages.transmission.motion(axis.motor, moment);
+                    axis.position_target.advance(moment.span);
+                    // Its speed may end with the stretch.
+                    let end = Moment { span: 0.0, ..moment };
+                    axis.motor = axis.track(stages, end);
+                    axis.load = stages.transmission.motion(axis.motor, end);
+                } else {
+                    axis.motor = axis.drive(stages, moment);
+                    axis.position_target.advance(moment.span);
+                    axis.load = stages.transmission.motion(axis.motor, moment);
+                }
+            },
+        );
         self.stages = stages;
     }
 
@@ -255,7 +272,6 @@ impl ServoAxis {
 
     /// The loop moves the axis, piece by piece of what it makes of its error.
     fn drive(&mut self, stages: &mut Stages, moment: Moment) -> Motion {
-        self.servo.torque = stages.actuator.switched(self.torque, moment);
         let motion = self.motion();
         self.exertion.bounds = servo_path::bounds(stages, &self.nominal, motion, moment);
         let mut rest = moment.span;
@@ -270,6 +286,8 @@ impl ServoAxis {
                 break;
             }
         }
+        // What switches at the end of the stretch drives the next.
+        self.servo.torque = stages.actuator.switched(self.torque, moment);
         self.motion()
     }
 
@@ -360,9 +378,9 @@ impl ServoAxis {
             let most = bounds.velocity * moment.span;
             let step = error.clamp(-most, most);
             self.tracked.position += step;
-            if moment.span > 0.0 {
-                self.tracked.velocity = step / moment.span;
-            }
+            let is_behind = error.abs() > most;
+            let rate = self.position_target.rate().clamp(-bounds.velocity, bounds.velocity);
+            self.tracked.velocity = if is_behind { bounds.velocity.copysign(error) } else { rate };
         } else {
             // Unless a stage holds it back it is where it is told to be, to the last bit.
             let target = self.position_target.value();
@@ -399,7 +417,12 @@ impl Device for ServoAxis {
     }
 
     fn moving(&self) -> u32 {
-        u32::from(moves(if self.stages.is_nominal() { self.servo.velocity() } else { self.motor.velocity }))
+        let velocity = match (self.stages.is_nominal(), self.mode) {
+            (true, Mode::Ideal) => self.position_target.rate(),
+            (true, _) => self.servo.velocity(),
+            (false, _) => self.motor.velocity,
+        };
+        u32::from(moves(velocity))
     }
 
     fn share(&mut self, others: u32) {

@@ -74,6 +74,8 @@ fn stretch(servo: &mut Servo, nominal: &Nominal, exertion: &mut Exertion, stages
     let opposing = servo.resistance() - viscous_friction * motion.velocity;
     let passed = if stages.shapes_effort() {
         let acceleration = (share * exertion.passed - servo.resistance()) / burden.inertia;
+        // What was commanded since then jumped.
+        stages.actuator.effort(effort, Moment { now: moment.now - moment.span, span: 0.0 });
         let ahead = servo.force_after(moment.span, if motion.velocity == 0.0 { 0.0 } else { acceleration });
         stages.actuator.effort(ahead, moment)
     } else {

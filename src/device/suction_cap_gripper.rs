@@ -97,10 +97,15 @@ impl Device for SuctionCapGripper {
             self.vacuum.advance(seconds);
         } else {
             let mut stages = std::mem::take(&mut self.stages);
-            stages.stretches(seconds, |stages, moment| {
-                self.vacuum.advance(moment.span);
-                pass(&mut self.vacuum, self.times, (self.suction, self.blow), stages, moment);
-            });
+            stages.stretches(
+                seconds,
+                self,
+                |_| f64::INFINITY,
+                |gripper, stages, moment| {
+                    gripper.vacuum.advance(moment.span);
+                    pass(&mut gripper.vacuum, gripper.times, (gripper.suction, gripper.blow), stages, moment);
+                },
+            );
             self.stages = stages;
         }
         self.cups.vacuum = self.vacuum.holds();

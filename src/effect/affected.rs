@@ -17,6 +17,8 @@ pub struct Affected {
     longest: f64,
     /// Whether any report passes a stage.
     reports_pass: bool,
+    /// The ports of the device whose steps pass a stage: it has to see each at its instant.
+    watched: Vec<usize>,
     now: f64,
     reports: Vec<f64>,
     /// What the parts see, over all stretches of one `advance`.
@@ -33,6 +35,8 @@ pub struct Signal {
     pub commanded: f64,
     /// The port that it leads to or comes from: its own, unless it is swapped with another.
     pub port: usize,
+    /// Whether it is a report that moves in steps: a BOOL, a code.
+    pub steps: bool,
 }
 
 /// The role of a device that moves in several stretches: displacements are added up.
@@ -49,14 +53,16 @@ impl Affected {
         let longest = signals.iter().map(|signal| signal.path.stretch()).fold(f64::INFINITY, f64::min);
         let reports_pass = signals.iter().any(|signal| !signal.is_command && !signal.path.is_nominal());
         let reports = vec![0.0; signals.len()];
-        let mut affected = Affected { inner, signals, longest, reports_pass, now: 0.0, reports, moved: None };
+        let watched = signals.iter().filter(|signal| signal.steps && !signal.path.is_nominal());
+        let watched = watched.map(|signal| signal.port).collect();
+        let mut affected = Affected { inner, signals, longest, reports_pass, watched, now: 0.0, reports, moved: None };
         affected.first_commands();
         affected
     }
 
     /// Shows the stages of the command links what stands at their entry at the start, and the device what comes out of it.
     fn first_commands(&mut self) {
-        for Signal { path, is_command, commanded, port } in &mut self.signals {
+        for Signal { path, is_command, commanded, port, .. } in &mut self.signals {
             if *is_command && !path.is_nominal() {
                 let exit = path.signal(*commanded, Moment::default());
                 if exit != *commanded {
@@ -73,7 +79,7 @@ impl Affected {
     /// Gives the inner device what stands at the exit of its command links now.
     fn pass_commands(&mut self, span: f64) {
         let moment = self.moment(span);
-        for Signal { path, is_command, commanded, port } in &mut self.signals {
+        for Signal { path, is_command, commanded, port, .. } in &mut self.signals {
             if *is_command && !path.is_nominal() {
                 let exit = path.signal(*commanded, moment);
                 self.inner.command(*port, exit);
@@ -118,6 +124,35 @@ impl Affected {
         let span = rest.min(self.longest).min(until);
         // What rounding leaves of the whole is no stretch of its own.
         if rest - span < SAME_INSTANT_S { rest } else { span }
+    }
+
+    /// Moves by `span`, or to the first step of a report that is watched; returns how long that took.
+    fn move_by(&mut self, span: f64) -> f64 {
+        if self.watched.is_empty() {
+            self.inner.advance(span);
+            return span;
+        }
+        let (start, before) = (self.inner.clone(), self.steps());
+        self.inner.advance(span);
+        if self.steps() == before {
+            return span;
+        }
+        let (mut still, mut stepped) = (0.0, span);
+        while stepped - still > SAME_INSTANT_S {
+            let middle = 0.5 * (still + stepped);
+            self.inner = start.clone();
+            self.inner.advance(middle);
+            if self.steps() == before { still = middle } else { stepped = middle }
+        }
+        self.inner = start;
+        self.inner.advance(stepped);
+        stepped
+    }
+
+    /// What the reports that are watched show now.
+    fn steps(&mut self) -> Vec<f64> {
+        self.inner.report(&mut self.reports);
+        self.watched.iter().map(|port| self.reports[*port]).collect()
     }
 
     fn add_up(&mut self) {
@@ -165,12 +200,16 @@ impl Device for Affected {
     }
 
     fn advance(&mut self, seconds: f64) {
+        if self.now == 0.0 {
+            // What stands there at the start.
+            self.see_reports();
+        }
         let end = self.now + seconds;
         let mut rest = seconds;
         self.moved = None;
         while rest > 0.0 {
             let stretch = self.stretch(rest);
-            self.inner.advance(stretch);
+            let stretch = self.move_by(stretch);
             self.add_up();
             rest -= stretch;
             self.now = if rest > 0.0 { self.now + stretch } else { end };

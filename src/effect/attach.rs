@@ -10,7 +10,7 @@ use crate::device::path::Path;
 use crate::device::{self, Device};
 use crate::plant::{EffectPlace, EffectSpec, Parameter, ParameterValue, Parameters};
 use crate::prototype::kind::{KindDescriptor, ParameterType, PortDescriptor, PortType};
-use crate::signal_map::Direction;
+use crate::signal_map::{Direction, Kind};
 use crate::value::Quantity;
 
 /// Builds the device of the instance called `instance`, with `effects` at their places: its parameters as
@@ -113,6 +113,35 @@ fn misfit(effect: &EffectDescriptor, instance: &str, spec: &EffectSpec, reason: 
 /// `device`, which is of `kind` and called `instance`, with the stages of `effects` at their places, in the order given
 /// where several stand at one place. Without any it is returned as it is. `parameters` are those it was built with.
 pub fn attach(
+    device: Box<dyn Device>,
+    kind: &KindDescriptor,
+    parameters: &Parameters,
+    instance: &str,
+    effects: &[EffectSpec],
+    seed: u64,
+) -> Result<Box<dyn Device>, EffectError> {
+    // At its nominal parameters an effect does nothing, to the last bit: it is not even there.
+    let is_there = |effect: &EffectDescriptor, values: &[f64]| {
+        effect.acts_always || effect.parameters.iter().zip(values).any(|(p, value)| p.nominal != *value)
+    };
+    attach_where(is_there, device, kind, parameters, instance, effects, seed)
+}
+
+/// As [`attach`], with the stages of effects that do nothing.
+#[cfg(test)]
+pub(super) fn attach_all(
+    device: Box<dyn Device>,
+    kind: &KindDescriptor,
+    parameters: &Parameters,
+    instance: &str,
+    effects: &[EffectSpec],
+    seed: u64,
+) -> Result<Box<dyn Device>, EffectError> {
+    attach_where(|_, _| true, device, kind, parameters, instance, effects, seed)
+}
+
+fn attach_where(
+    is_there: impl Fn(&EffectDescriptor, &[f64]) -> bool,
     mut device: Box<dyn Device>,
     kind: &KindDescriptor,
     parameters: &Parameters,
@@ -131,6 +160,7 @@ pub fn attach(
             let seed = dice::seed(seed, &[instance, name, spec.place.name(), effect.id]);
             Site { kind, parameters, place: spec.place, port: port.map(|port| &kind.ports[port]), seed }
         };
+        let is_there = is_there(effect, &values);
         match effect.build {
             Build::Parameters => {}
             Build::Swap => {
@@ -142,9 +172,11 @@ pub fn attach(
             Build::Stage(build) => match spec.place {
                 EffectPlace::CommandLink | EffectPlace::Sensor | EffectPlace::ReportLink => {
                     for port in ports(kind, effect, spec.place, component).map_err(misfit)? {
-                        signals[port].path.push(build(&values, &site(Some(port))));
+                        if is_there {
+                            signals[port].path.push(build(&values, &site(Some(port))));
+                            is_affected = true;
+                        }
                     }
-                    is_affected = true;
                 }
                 _ => {
                     let site = site(None);
@@ -154,6 +186,9 @@ pub fn attach(
                         None => format!("{} has several components: name one", kind.name),
                     };
                     let stages = device.stages(component).ok_or_else(|| misfit(no_component()))?;
+                    if !is_there {
+                        continue;
+                    }
                     let stage = build(&values, &site);
                     stages.push(spec.place, stage).map_err(|_| misfit("that place lies outside".to_owned()))?;
                 }
@@ -167,7 +202,10 @@ pub fn attach(
 fn signal(at: usize, port: &PortDescriptor) -> Signal {
     // What nobody commands is 0 or false, but for the torque of an axis, which is on.
     let commanded = f64::from(u8::from(port.name == "torqueEnabled"));
-    Signal { path: Path::default(), is_command: port.direction == Direction::Command, commanded, port: at }
+    let is_command = port.direction == Direction::Command;
+    let is_smooth = port.kind == Kind::Level && port.ty != PortType::Boolean;
+    let steps = !is_command && !is_smooth;
+    Signal { path: Path::default(), is_command, commanded, port: at, steps }
 }
 
 /// The last word of a kind's name: `StraightConveyor`.

@@ -19,7 +19,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     places: &[EffectPlace::Transmission],
     parameters: &[parameter("gap", TRAVEL, (0.0, 1e3), 0.0, 0.01, "the whole gap, from flank to flank")],
     excited_by: "reversals",
-    build: Build::Stage(|values, _| Box::new(Backlash { play: Play::new(values[0]), gap: values[0] })),
+    build: Build::Stage(|values, _| Box::new(Backlash { play: Play::new(values[0]), gap: values[0], met: None })),
     ..BASE
 };
 
@@ -27,6 +27,8 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
 struct Backlash {
     gap: f64,
     play: Play,
+    /// When the flanks meet if the motor goes on at its speed.
+    met: Option<f64>,
 }
 
 impl Stage for Backlash {
@@ -34,11 +36,17 @@ impl Stage for Backlash {
         Box::new(self.clone())
     }
 
-    fn motion(&mut self, motion: Motion, _moment: Moment) -> Motion {
+    fn next_change(&self) -> Option<f64> {
+        self.met
+    }
+
+    fn motion(&mut self, motion: Motion, moment: Moment) -> Motion {
         if self.gap == 0.0 {
             return motion;
         }
         let (position, is_dragged) = self.play.pass(motion.position);
+        let left = 0.5 * self.gap - (motion.position - position) * motion.velocity.signum();
+        self.met = (!is_dragged && motion.velocity != 0.0).then(|| moment.now + left / motion.velocity.abs());
         Motion { position, velocity: if is_dragged { motion.velocity } else { 0.0 } }
     }
 

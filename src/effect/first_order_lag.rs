@@ -98,6 +98,10 @@ impl Stage for FirstOrderLag {
 
     fn effort(&mut self, effort: f64, moment: Moment) -> f64 {
         let (input, output) = self.force;
+        if moment.span <= 0.0 {
+            self.force = (effort, output);
+            return output;
+        }
         let next = follow(output, Course::straight(input, effort), moment.span, self.time_constant);
         self.force = (effort, next);
         // T·dy/dt + y = x, integrated over the stretch.

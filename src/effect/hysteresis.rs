@@ -47,15 +47,19 @@ impl Stage for Hysteresis {
         Box::new(self.clone())
     }
 
+    fn next_change(&self) -> Option<f64> {
+        self.way.as_ref().and_then(Way::next)
+    }
+
     fn travelled(&mut self, travel: f64) {
         if let Some(way) = &mut self.way {
             way.travelled(travel);
         }
     }
 
-    fn signal(&mut self, value: f64, _moment: Moment) -> f64 {
+    fn signal(&mut self, value: f64, moment: Moment) -> f64 {
         match &mut self.way {
-            Some(way) => f64::from(u8::from(way.pass(value != 0.0))),
+            Some(way) => f64::from(u8::from(way.pass(value != 0.0, moment.now))),
             None => self.play.pass(value).0,
         }
     }

@@ -36,8 +36,10 @@ struct InputFilter {
 
 #[derive(Clone, Debug)]
 enum Filter {
-    /// What stood at the entry and at the exit last.
-    Low { input: Option<f64>, output: Option<f64>, is_smooth: bool },
+    /// What stood at the entry and at the exit of a measured quantity last.
+    Low { input: Option<f64>, output: Option<f64> },
+    /// A command that is filtered.
+    Steps(Steps),
     /// What is new, and from when on it counts.
     Stand { mail: Mail, stood: Option<(f64, f64)> },
 }
@@ -47,7 +49,45 @@ impl Filter {
         if site.is_boolean() || site.is_whole() {
             return Filter::Stand { mail: Mail::default(), stood: None };
         }
-        Filter::Low { input: None, output: None, is_smooth: site.is_smooth() }
+        if site.is_smooth() { Filter::Low { input: None, output: None } } else { Filter::Steps(Steps::default()) }
+    }
+}
+
+/// A filtered command: a staircase about the filter's own exit, with a step every [`STEP_S`] whatever the spans in which time
+/// passes, each of the height that the exit has in the step's middle.
+#[derive(Clone, Debug, Default)]
+struct Steps {
+    input: Option<f64>,
+    output: f64,
+    exit: f64,
+    /// How many steps there have been.
+    count: u64,
+}
+
+/// From one step to the next, s.
+const STEP_S: f64 = 1e-3;
+
+impl Steps {
+    fn pass(&mut self, value: f64, now: f64, span: f64, time_constant: f64) -> f64 {
+        let Some(from) = self.input.replace(value) else {
+            (self.output, self.exit) = (value, value);
+            return value;
+        };
+        // A command stands until it changes.
+        self.output = follow(self.output, Course::straight(from, from), span, time_constant);
+        let count = ((now + SAME_INSTANT_S) / STEP_S) as u64;
+        if count != self.count {
+            self.count = count;
+            self.exit = follow(self.output, Course::straight(value, value), 0.5 * STEP_S, time_constant);
+            if (self.exit - value).abs() < 1e-12 {
+                (self.output, self.exit) = (value, value);
+            }
+        }
+        self.exit
+    }
+
+    fn next(&self) -> Option<f64> {
+        (self.input != Some(self.exit)).then(|| (self.count + 1) as f64 * STEP_S)
     }
 }
 
@@ -59,6 +99,7 @@ impl Stage for InputFilter {
     fn next_change(&self) -> Option<f64> {
         match &self.filter {
             Filter::Stand { stood, .. } => stood.map(|(_, due)| due),
+            Filter::Steps(steps) => steps.next(),
             Filter::Low { .. } => None,
         }
     }
@@ -69,12 +110,12 @@ impl Stage for InputFilter {
         }
         let span = moment.now - std::mem::replace(&mut self.last, moment.now);
         match &mut self.filter {
-            Filter::Low { input, output, is_smooth } => {
-                // A command stands until it changes; a measured quantity has moved on a straight line since.
-                let from = input.replace(value).unwrap_or(value);
-                let course = if *is_smooth { Course::straight(from, value) } else { Course::straight(from, from) };
+            Filter::Low { input, output } => {
+                // It has moved on a straight line since.
+                let course = Course::straight(input.replace(value).unwrap_or(value), value);
                 *output.insert(follow(output.unwrap_or(value), course, span, self.time_constant))
             }
+            Filter::Steps(steps) => steps.pass(value, moment.now, span, self.time_constant),
             Filter::Stand { mail, stood } => {
                 if mail.is_new(value) {
                     // What did not stand long enough never was.
@@ -94,7 +135,10 @@ impl Stage for InputFilter {
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         visit(self.last);
         match &self.filter {
-            Filter::Low { input, output, .. } => input.iter().chain(output).for_each(|number| visit(*number)),
+            Filter::Low { input, output } => input.iter().chain(output).for_each(|number| visit(*number)),
+            Filter::Steps(Steps { input, output, exit, .. }) => {
+                input.iter().chain([output, exit]).for_each(|number| visit(*number));
+            }
             Filter::Stand { mail, stood } => {
                 mail.state(visit);
                 stood.iter().flat_map(|(value, due)| [*value, *due]).for_each(&mut *visit);
@@ -109,12 +153,12 @@ mod tests {
 
     #[test]
     fn a_number_comes_by_and_by() {
-        // v_target = 0.5·(1 − e^(−t/T)), which the belt follows a stretch later.
+        // v_target = 0.5·(1 − e^(−t/T)); the last step of the staircase is half a step behind.
         let filter = spec("command-link", "input-filter", Some("velocityTarget"), &[("time_constant", 0.5)]);
         let mut belt = with("StraightConveyor", &[("acceleration", "100")], &[filter]);
         belt.check(&[("motorDirection", 1.0)], 0.1, &[]);
         belt.check(&[("velocityTarget", 0.5)], 1.0, &[]);
-        let exact = 0.5 * (1.0 - (-1.998_f64).exp());
+        let exact = 0.5 * (1.0 - (-1.999_f64).exp());
         assert!((belt.report("velocityActual") - exact).abs() < 1e-6, "{}", belt.report("velocityActual"));
     }
 

@@ -17,6 +17,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     places: &[EffectPlace::CommandLink, EffectPlace::ReportLink],
     fits: &[Fit::Signals(SignalClass::Any)],
     parameters: &[],
+    acts_always: true,
     excited_by: "the signal being anything but 0",
     build: Build::Stage(|_, site| {
         Box::new(Inverted {

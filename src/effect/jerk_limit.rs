@@ -78,7 +78,7 @@ impl Stage for JerkLimit {
 
     fn motion(&mut self, motion: Motion, moment: Moment) -> Motion {
         let window = self.acceleration / self.limit;
-        if window <= SAME_INSTANT_S || !window.is_finite() {
+        if self.limit >= UNLIMITED || window <= SAME_INSTANT_S || !window.is_finite() {
             return motion;
         }
         let last = self.samples.back().copied().unwrap_or(Sample { at: moment.now - moment.span, ..Sample::default() });

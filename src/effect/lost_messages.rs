@@ -72,6 +72,10 @@ impl Stage for LostMessages {
         } else {
             let cycle = ((moment.now + SAME_INSTANT_S) / self.cycle) as u64;
             if cycle != self.count {
+                // What stands there when a cycle ends is what the next one shows if it brings nothing.
+                if !self.is_lost {
+                    self.exit = value;
+                }
                 (self.count, self.is_lost) = (cycle, self.dice.uniform(cycle) < self.probability);
             }
         }

@@ -1,7 +1,7 @@
 //! What real devices add to their nominal laws: the effects, one file each.
 //!
 //! An effect stands at one place of a device's signal path (see [`crate::device::path`]). It is part of the model's XML,
-//! `<effect place="transmission" kind="belt-slip"><property name="ratio" value="0.06"/></effect>` on an instance, and the
+//! `<effect place="transmission" kind="belt-slip"><parameter name="ratio" value="0.06"/></effect>` on an instance, and the
 //! engine runs the same code in a live run, in a replay and in a diagnosis. Each file holds the effect's equation with its
 //! source, its parameters with units, ranges and the nominal value at which it does nothing, and a test against a closed form
 //! or a published result. A new effect is a new file and one line in [`EFFECTS`].
@@ -11,14 +11,19 @@ mod acceleration_limit;
 mod added_mass;
 mod affected;
 mod attach;
+mod back_pressure;
 mod backlash;
 mod belt_slip;
+mod belt_slip_above_acceleration;
 #[cfg(test)]
 mod bench;
 mod blind_range;
 mod bounce;
 mod breakaway_friction;
+mod carried_mass;
 mod clock_drift;
+mod coasting;
+mod compliance;
 mod constant_force;
 mod coulomb_friction;
 mod dead_band;
@@ -26,7 +31,9 @@ mod dead_time;
 mod dice;
 mod direction_asymmetry;
 mod drift;
+mod end_cushioning;
 mod first_order_lag;
+mod follower;
 mod force_limit;
 mod gain;
 mod gain_error;
@@ -36,31 +43,45 @@ mod input_filter;
 mod intermittent;
 mod inverted;
 mod jerk_limit;
+mod leak;
 mod line;
 mod load_dependent_friction;
+mod load_dependent_speed;
 mod lost_messages;
+mod neighbours;
 mod noise;
 mod off_delay;
 mod offset;
 mod on_delay;
 mod once_per_revolution_error;
+mod page;
 mod parameter_error;
+mod part_length_error;
+mod part_slip;
+mod part_spacing_error;
 mod play;
 mod position_dependent_friction;
 mod quantisation;
 mod registry;
+mod said;
 mod sampling_jitter;
 mod scale_error;
 mod second_order_lag;
+mod settling_time;
 mod site;
 mod stale_hold;
 mod stribeck_friction;
 mod stuck;
+mod supply_drop;
 mod swapped;
 mod switch_off_delay;
 mod switch_on_delay;
 mod table;
+#[cfg(test)]
+mod tests;
 mod timer;
+mod transfer_slip;
+mod vacuum_build_up;
 mod velocity_limit;
 mod viscous_friction;
 mod way;
@@ -71,11 +92,14 @@ use std::collections::BTreeMap;
 use crate::device;
 use crate::device::path::Stage;
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
-use crate::value::Quantity;
+use crate::value::{Quantity, Unit};
 
 pub use affected::Affected;
 pub use attach::{attach, build, of_task, parameters_of};
+pub use neighbours::{CARRIES_PARTS, SHARES_A_SUPPLY, moving_as_reported, neighbours, stranger};
+pub use page::page;
 pub use registry::EFFECTS;
+pub use said::refuse_units;
 pub use site::Site;
 
 /// An effect, as the registry, the model reader, the diagnosis and the documentation know it.
@@ -188,6 +212,8 @@ pub enum EffectError {
     Missing { id: &'static str, name: &'static str, summary: &'static str },
     #[error("effect {id}: {name} is {found}, expected a number from {} to {}", range.0, range.1)]
     Value { id: &'static str, name: &'static str, found: String, range: (f64, f64) },
+    #[error("effect {id}: {name} is given in {found}, expected {expected}")]
+    Unit { id: &'static str, name: &'static str, found: Unit, expected: String },
     #[error(transparent)]
     Device(#[from] device::BuildError),
     #[error("effect {id} needs its property {name}: {summary}")]

@@ -1,6 +1,8 @@
 //! The play operator: an output that is dragged along by an input with a gap between them (M. A. Krasnosel'skii,
 //! A. V. Pokrovskii, Systems with Hysteresis, Springer 1989, section 2).
 
+use crate::device::law::SAME_VALUE;
+
 /// An output in the middle of its gap to begin with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Play {
@@ -20,7 +22,7 @@ impl Play {
         let before = *self.output.get_or_insert(input);
         let output = before.clamp(input - half, input + half);
         self.output = Some(output);
-        (output, (output - input).abs() >= half)
+        (output, (output - input).abs() >= half - SAME_VALUE)
     }
 
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {

@@ -33,8 +33,13 @@ effects![
     force_limit,
     dead_band,
     direction_asymmetry,
+    supply_drop,
     switch_on_delay,
     switch_off_delay,
+    load_dependent_speed,
+    coasting,
+    end_cushioning,
+    settling_time,
     // Mechanics.
     coulomb_friction,
     viscous_friction,
@@ -44,13 +49,16 @@ effects![
     position_dependent_friction,
     // Transmission.
     backlash,
+    compliance,
     belt_slip,
+    belt_slip_above_acceleration,
     scale_error,
     once_per_revolution_error,
     // Load.
     added_mass,
     constant_force,
     gravity,
+    carried_mass,
     // Sensor.
     offset,
     gain,
@@ -62,6 +70,14 @@ effects![
     bounce,
     drift,
     blind_range,
+    // Process.
+    part_slip,
+    transfer_slip,
+    back_pressure,
+    part_length_error,
+    part_spacing_error,
+    vacuum_build_up,
+    leak,
     // Any.
     parameter_error,
 ];

@@ -62,28 +62,29 @@ impl SecondOrderLag {
         let start = particular(course.from, slope);
         let end = particular(course.to, slope + course.bend * span);
         let (u, du) = (output.position - start.position, output.velocity - start.velocity);
-        let (cosine, sine) = self.modes(span);
+        let (cosine, sine) = modes(frequency, decay, span);
         Motion {
             position: end.position + u * cosine + (du + decay * u) * sine,
             velocity: end.velocity + du * cosine - (square * u + decay * du) * sine,
         }
     }
+}
 
-    /// e^(−ζω·t)·cos(ω_d·t) and e^(−ζω·t)·sin(ω_d·t)/ω_d, with ω_d² = ω² − (ζω)², which may be negative.
-    fn modes(&self, span: f64) -> (f64, f64) {
-        let difference = self.frequency * self.frequency - self.decay * self.decay;
-        let envelope = (-self.decay * span).exp();
-        let turn = difference.abs().sqrt() * span;
-        if turn < 1e-6 {
-            return (envelope, envelope * span);
-        }
-        if difference > 0.0 {
-            let (sine, cosine) = turn.sin_cos();
-            return (envelope * cosine, envelope * sine * span / turn);
-        }
-        let (slow, fast) = ((turn - self.decay * span).exp(), (-turn - self.decay * span).exp());
-        (0.5 * (slow + fast), 0.5 * (slow - fast) * span / turn)
+/// e^(−ζω·t)·cos(ω_d·t) and e^(−ζω·t)·sin(ω_d·t)/ω_d after `span`, with ω the `frequency`, ζω the `decay` and
+/// ω_d² = ω² − (ζω)², which may be negative.
+pub(super) fn modes(frequency: f64, decay: f64, span: f64) -> (f64, f64) {
+    let difference = frequency * frequency - decay * decay;
+    let envelope = (-decay * span).exp();
+    let turn = difference.abs().sqrt() * span;
+    if turn < 1e-6 {
+        return (envelope, envelope * span);
     }
+    if difference > 0.0 {
+        let (sine, cosine) = turn.sin_cos();
+        return (envelope * cosine, envelope * sine * span / turn);
+    }
+    let (slow, fast) = ((turn - decay * span).exp(), (-turn - decay * span).exp());
+    (0.5 * (slow + fast), 0.5 * (slow - fast) * span / turn)
 }
 
 impl Stage for SecondOrderLag {
@@ -103,6 +104,10 @@ impl Stage for SecondOrderLag {
 
     fn effort(&mut self, effort: f64, moment: Moment) -> f64 {
         let (before, from) = (self.force_output, self.force);
+        if moment.span <= 0.0 {
+            self.force = effort;
+            return before.position;
+        }
         let next = self.follow(before, Course::straight(from, effort), moment.span);
         (self.force, self.force_output) = (effort, next);
         // The oscillator's equation, integrated over the stretch.

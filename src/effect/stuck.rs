@@ -19,6 +19,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
         parameter("value", ONE, (-1e9, 1e9), 0.0, 0.0, "where it stands, in the signal's SI unit; a BOOL at 0 or 1"),
         parameter("from", TIME, (0.0, 1e9), 0.0, 0.0, "from when on, after the start").or(0.0),
     ],
+    acts_always: true,
     excited_by: "the signal being anything but that value",
     build: Build::Stage(|values, _| Box::new(Stuck { value: values[0], from: values[1], now: 0.0 })),
     ..BASE

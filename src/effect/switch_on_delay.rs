@@ -77,7 +77,7 @@ mod tests {
     fn a_cylinder_that_turns_round_waits_for_its_other_coil() {
         let mut pusher = with("Pusher", &[], &[spec("actuator", "switch-on-delay", None, &[("time", 0.1)])]);
         pusher.check(&[("command", 1.0)], 0.5, &[("isRunning", 1.0)]);
-        pusher.check(&[("command", 2.0)], 0.1, &[("isRunning", 0.0)]);
-        pusher.check(&[], 0.397, &[("limitRetracted", 1.0)]);
+        pusher.check(&[("command", 2.0)], 0.0999, &[("isRunning", 0.0)]);
+        pusher.check(&[], 0.3971, &[("limitRetracted", 1.0)]);
     }
 }

@@ -10,7 +10,11 @@ pub(super) const ACCELERATION: &[Quantity] = &[Quantity::Acceleration, Quantity:
 pub(super) const EFFORT: &[Quantity] = &[Quantity::Force, Quantity::Torque];
 pub(super) const DAMPING: &[Quantity] = &[Quantity::LinearDamping, Quantity::AngularDamping];
 pub(super) const INERTIA: &[Quantity] = &[Quantity::Mass, Quantity::Inertia];
+pub(super) const STIFFNESS: &[Quantity] = &[Quantity::LinearStiffness, Quantity::AngularStiffness];
 /// Quantities of every device.
+pub(super) const LENGTH: &[Quantity] = &[Quantity::Length];
+pub(super) const LINEAR_ACCELERATION: &[Quantity] = &[Quantity::Acceleration];
+pub(super) const RATE: &[Quantity] = &[Quantity::Rate];
 pub(super) const TIME: &[Quantity] = &[Quantity::Time];
 pub(super) const FREQUENCY: &[Quantity] = &[Quantity::AngularVelocity];
 pub(super) const ANGLE: &[Quantity] = &[Quantity::Angle];

@@ -1,5 +1,7 @@
 //! A boolean sensor that follows only after a way: what it looks along must move on before it sees a change.
 
+use crate::device::law::SAME_VALUE;
+
 /// A switch with a way of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Way {
@@ -11,11 +13,15 @@ pub(super) struct Way {
     from: Option<f64>,
     /// Where that stands now.
     travel: f64,
+    /// When it was last asked, and where it stood then.
+    before: Option<(f64, f64)>,
+    /// When the way will be over if it goes on as it went.
+    due: Option<f64>,
 }
 
 impl Way {
     pub fn new(length: f64, late: bool) -> Way {
-        Way { length, late, exit: None, from: None, travel: 0.0 }
+        Way { length, late, exit: None, from: None, travel: 0.0, before: None, due: None }
     }
 
     /// What it looks along stands there now.
@@ -24,19 +30,32 @@ impl Way {
     }
 
     /// What it shows while `input` is so.
-    pub fn pass(&mut self, input: bool) -> bool {
+    pub fn pass(&mut self, input: bool, now: f64) -> bool {
+        let before = self.before.replace((now, self.travel));
+        self.due = None;
         let exit = *self.exit.get_or_insert(input);
         if input == exit {
             self.from = None;
             return exit;
         }
         let from = *self.from.get_or_insert(self.travel);
-        if input == self.late && (self.travel - from).abs() < self.length {
+        let left = self.length - (self.travel - from).abs();
+        if input == self.late && left > SAME_VALUE {
+            // At the speed of the time since it was asked before.
+            self.due = before.and_then(|(then, travel)| {
+                let gone = (self.travel - travel).abs();
+                (now > then && gone > 0.0).then(|| now + left * (now - then) / gone)
+            });
             return exit;
         }
         self.exit = Some(input);
         self.from = None;
         input
+    }
+
+    /// When it will change, if what it looks along goes on as it went.
+    pub fn next(&self) -> Option<f64> {
+        self.due
     }
 
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {
@@ -54,7 +73,7 @@ mod tests {
         let mut way = Way::new(0.01, false);
         let mut check = |travel: f64, input: bool, exit: bool| {
             way.travelled(travel);
-            assert_eq!(way.pass(input), exit, "at {travel}");
+            assert_eq!(way.pass(input, 0.0), exit, "at {travel}");
         };
         check(0.0, false, false);
         check(1.0, true, true);

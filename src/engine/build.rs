@@ -5,11 +5,12 @@ use std::time::Duration;
 
 use super::binding::{CommandTable, ReportPort, Target};
 use super::floor::{Bay, BeltBody, CupsBody, Drain, Floor, PlateBody};
+use super::ties::{self, Ties};
 use super::{Engine, Mount, Unit, UnitBody};
 use crate::device::{self, Belt, Cups, Device, Role, Surface as DeviceSurface};
 use crate::effect;
 use crate::kinematics::{Along, Block, DPose3, DQuat, DVec3, FrameId, FrameTree, Shape, Surface, Upright, is_level};
-use crate::plant::{InitialPart, Instance, Plant, Pose, Task};
+use crate::plant::{EffectSpec, InitialPart, Instance, Plant, Pose, Task};
 use crate::signal_map::Direction;
 use crate::time::Instant;
 use crate::xml::Fault;
@@ -21,8 +22,9 @@ pub enum BuildError {
     NoStep,
     #[error(transparent)]
     Device(device::BuildError),
-    #[error(transparent)]
-    Effect(effect::EffectError),
+    /// The effect at `index` of an instance's effects.
+    #[error("{}", said(instance, error))]
+    Effect { instance: String, index: usize, error: Box<effect::EffectError> },
     #[error(
         "{instance} is tilted: parts stand upright, so that what carries, pushes or lifts them must be level; \
          set rx and ry of its pose to 0"
@@ -34,12 +36,11 @@ pub enum BuildError {
     Part { index: usize, name: String, problem: String },
 }
 
-impl From<effect::EffectError> for BuildError {
-    fn from(error: effect::EffectError) -> BuildError {
-        match error {
-            effect::EffectError::Device(error) => BuildError::Device(error),
-            error => BuildError::Effect(error),
-        }
+/// What is wrong with an effect, with the instance that has it.
+fn said(instance: &str, error: &effect::EffectError) -> String {
+    match error {
+        effect::EffectError::Device(error) => error.to_string(),
+        error => format!("{instance}: {error}"),
     }
 }
 
@@ -53,7 +54,8 @@ impl BuildError {
             None => Some((places.instance(instance)?, format!("expected a property that sets {name}"))),
         };
         let (place, expected) = match self {
-            BuildError::NoStep | BuildError::Effect(_) => return None,
+            BuildError::NoStep => return None,
+            BuildError::Effect { instance, index, error } => error.place(places.effect(instance, *index)?),
             BuildError::Device(error) => parameter(&error.instance, error.parameter)?,
             BuildError::Neighbour { instance, property, expected, .. } => {
                 (parameter(instance, property)?.0, format!("expected {expected}"))
@@ -82,9 +84,7 @@ impl Engine {
         let mut units: Vec<Unit> = Vec::new();
         for instance in &plant.instances {
             for task in &instance.tasks {
-                let tasks: Vec<&str> = instance.tasks.iter().map(|task| task.name.as_str()).collect();
-                let effects = effect::of_task(&instance.effects, &task.name, &tasks);
-                let mut device = effect::build(task.kind, &task.parameters, &instance.name, &effects, seed)?;
+                let mut device = device_of(plant, instance, task, seed)?;
                 let mut reports = Vec::new();
                 for (port, register) in task.ports.iter().enumerate() {
                     let Some(register) = *register else { continue };
@@ -97,10 +97,11 @@ impl Engine {
                     }
                 }
                 let body = builder.add(instance, units.len(), device.as_ref())?;
-                units.push(Unit { device, ports: task.kind.ports.len(), reports, body });
+                units.push(Unit { device, ports: task.kind.ports.len(), reports, body, ties: Ties::default() });
             }
         }
         builder.connect(plant, &mut units)?;
+        ties::tie(plant, &builder.mounts, &mut units)?;
         let registers = map.signals().iter().map(|signal| signal.ty.initial()).collect();
         let room = units.iter().map(|unit| unit.ports).max().unwrap_or(0);
         let Builder { frames, floor, mounts, .. } = builder;
@@ -166,6 +167,35 @@ impl Engine {
         }
         Ok(Block::new(DVec3::from_array(part.size), upright))
     }
+}
+
+/// The device of a task with its instance's effects. What cannot be is told of the first effect that makes it so.
+fn device_of(plant: &Plant, instance: &Instance, task: &Task, seed: u64) -> Result<Box<dyn Device>, BuildError> {
+    let tasks: Vec<&str> = instance.tasks.iter().map(|task| task.name.as_str()).collect();
+    let with = |effects: &[EffectSpec]| {
+        let effects = effect::of_task(effects, &task.name, &tasks);
+        effect::build(task.kind, &task.parameters, &instance.name, &effects, seed)
+    };
+    let refuse = |index: usize, error| {
+        let instance = instance.name.clone();
+        BuildError::Effect { instance, index, error: Box::new(error) }
+    };
+    for (index, spec) in instance.effects.iter().enumerate() {
+        let places = plant.places.effect(&instance.name, index);
+        let unit_of = |name: &str| Some(places?.parameters.get(name)?.1.as_ref()?.value);
+        effect::refuse_units(spec, unit_of).map_err(|error| refuse(index, error))?;
+    }
+    let refused = match with(&instance.effects) {
+        Ok(device) => return Ok(device),
+        Err(refused) => refused,
+    };
+    if let Err(effect::EffectError::Device(error)) = with(&[]) {
+        return Err(BuildError::Device(error));
+    }
+    let counts = 1..instance.effects.len();
+    let first = counts.into_iter().find_map(|count| Some((count - 1, with(&instance.effects[..count]).err()?)));
+    let (index, error) = first.unwrap_or((instance.effects.len() - 1, refused));
+    Err(refuse(index, error))
 }
 
 fn part_error(index: usize, part: &InitialPart, problem: String) -> BuildError {
@@ -297,6 +327,7 @@ fn belt_body(name: &str, pose: &DPose3, belt: &Belt) -> BeltBody {
         name: name.to_owned(),
         surface,
         transfer: belt.transfer,
+        transfer_slip: 0.0,
         displacement: 0.0,
         neighbours: Vec::new(),
         open: [true; 2],

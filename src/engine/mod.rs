@@ -11,17 +11,20 @@
 mod bench;
 mod binding;
 mod build;
+#[cfg(test)]
+mod effect_tests;
 mod floor;
 mod hash;
 #[cfg(test)]
 mod tests;
+mod ties;
 
 use std::time::Duration;
 
 pub use build::BuildError;
 pub use floor::{Incident, IncidentKind, PartCounts};
 
-use crate::device::{Device, Role};
+use crate::device::{Device, Role, Surroundings};
 use crate::kinematics::{DPose3, DQuat, DVec3, FrameId, FrameTree};
 use crate::plant::PartKind;
 use crate::signal_map::RegisterId;
@@ -29,6 +32,7 @@ use crate::time::Instant;
 use crate::value::Value;
 use binding::{CommandTable, ReportPort};
 use floor::Floor;
+use ties::Ties;
 
 /// A plant that runs.
 pub struct Engine {
@@ -52,6 +56,7 @@ struct Unit {
     ports: usize,
     reports: Vec<ReportPort>,
     body: UnitBody,
+    ties: Ties,
 }
 
 /// A gripper that hangs from a robot. It draws while its own `suctionOn` is true or the robot's `grip` is.
@@ -193,11 +198,21 @@ impl Engine {
 
     fn joints(&mut self, span: Duration) {
         let seconds = span.as_secs_f64();
+        self.share_supplies();
         for unit in &mut self.units {
             unit.device.advance(seconds);
         }
         self.now += span;
         self.place_bodies();
+    }
+
+    /// Tells devices that feel it how many others on their supply move; what all do before any of them moves.
+    fn share_supplies(&mut self) {
+        for index in 0..self.units.len() {
+            let Some(others) = &self.units[index].ties.supply else { continue };
+            let moving = others.iter().map(|other| self.units[*other].device.moving()).sum();
+            self.units[index].device.share(moving);
+        }
     }
 
     /// Tells the floor where the devices are now.
@@ -207,6 +222,7 @@ impl Engine {
             match (unit.device.role(), unit.body) {
                 (Role::Carries(belt), UnitBody::Belt(index)) => {
                     self.floor.belts[index].displacement = belt.displacement;
+                    self.floor.belts[index].transfer_slip = belt.transfer_slip;
                 }
                 (Role::Pushes(plate), UnitBody::Plate(index)) => {
                     self.floor.plates[index].set(plate.position, plate.displacement, plate.size[0]);
@@ -242,12 +258,20 @@ impl Engine {
 
     fn sensors(&mut self) {
         for unit in &mut self.units {
-            let surroundings = match unit.body {
+            let mut surroundings = match unit.body {
                 UnitBody::Belt(index) => self.floor.at_belt(index),
                 UnitBody::Plate(index) => self.floor.at_plate(index),
                 UnitBody::Cups(index, _) => self.floor.about_cups(index),
+                _ if unit.ties.counts_parts => Surroundings::default(),
                 _ => continue,
             };
+            if unit.ties.counts_parts {
+                (surroundings.parts, surroundings.queued) = match unit.body {
+                    UnitBody::Belt(index) => self.floor.load_of_belt(index),
+                    UnitBody::Plate(index) => (self.floor.plates[index].pushed, 0),
+                    _ => (self.floor.held_by(&unit.ties.cups), 0),
+                };
+            }
             unit.device.sense(&surroundings);
         }
     }

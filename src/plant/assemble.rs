@@ -52,6 +52,8 @@ pub(super) fn assemble(
         let built = build(declaration, prototype, tolerances, &mut signals, faults);
         let name = &built.instance.name;
         places.instances.insert(name.clone(), declaration.name.place.clone());
+        let effects = declaration.effects.iter().map(|effect| effect.places.clone()).collect();
+        places.effects.insert(name.clone(), effects);
         places.parameters.extend(built.set.into_iter().map(|(parameter, place)| ((name.clone(), parameter), place)));
         instances.push(built.instance);
         references.extend(built.references);

@@ -68,7 +68,8 @@ pub fn read(file: &str, text: &str) -> Result<EffectsFile, Faults> {
         for element in child.children_named("effect") {
             let read = effect(element, &mut faults);
             if let (Some(instance), Some(effect)) = (&name, read) {
-                effects.push(Addition { instance: instance.clone(), effect, place: element.extent.clone() });
+                let place = element.extent.clone();
+                effects.push(Addition { instance: instance.clone(), effect: effect.spec, place });
             }
         }
     }

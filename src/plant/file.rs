@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use super::{EffectPlace, EffectSpec, ParameterValue, PartKind, Pose};
-use crate::prototype::quantity::parse_number;
+use super::{EffectPlace, EffectPlaces, EffectSpec, ParameterValue, PartKind, Pose};
+use crate::prototype::quantity::{parse_number, unit_in};
 use crate::prototype::words;
 use crate::signal_map::xml::unit;
 use crate::time::parse_duration;
@@ -44,7 +44,7 @@ pub(super) struct InstanceDeclaration {
     pub prototype: Option<Located<String>>,
     pub pose: Option<Pose>,
     pub properties: Vec<PropertyDeclaration>,
-    pub effects: Vec<EffectSpec>,
+    pub effects: Vec<EffectDeclaration>,
     /// The folder of the plant's file that declares it: its prototype is looked for from there.
     pub home: String,
 }
@@ -55,6 +55,13 @@ pub(super) struct PropertyDeclaration {
     pub name: Located<String>,
     pub value: Located<String>,
     pub tolerance: Option<f64>,
+}
+
+/// An `<effect>` of an instance.
+#[derive(Clone, Debug)]
+pub(super) struct EffectDeclaration {
+    pub spec: EffectSpec,
+    pub places: EffectPlaces,
 }
 
 /// A `<part>`.
@@ -210,7 +217,7 @@ fn pose(element: &Element, faults: &mut Faults) -> Pose {
 }
 
 /// An `<effect>`, in a plant's file or in one of effects.
-pub(super) fn effect(element: &Element, faults: &mut Faults) -> Option<EffectSpec> {
+pub(super) fn effect(element: &Element, faults: &mut Faults) -> Option<EffectDeclaration> {
     element.allow_attributes(&["kind", "place", "component"], faults);
     element.allow_children(&["parameter"], faults);
     let kind = element.required("kind", faults).cloned();
@@ -219,30 +226,47 @@ pub(super) fn effect(element: &Element, faults: &mut Faults) -> Option<EffectSpe
     {
         faults.push(kind.fault(format!("{:?} is no effect", kind.value), "expected words joined by -: belt-slip"));
     }
-    let places = EffectPlace::ALL.map(|place| (place.name(), place));
-    let place = element.required_choice("place", &places, faults);
-    let mut parameters = BTreeMap::new();
+    let choices = EffectPlace::ALL.map(|place| (place.name(), place));
+    let place = element.required_choice("place", &choices, faults);
+    let (mut parameters, mut places) = (BTreeMap::new(), BTreeMap::new());
     let mut names = Vec::new();
     for child in element.children_named("parameter") {
-        if let Some((name, value)) = effect_parameter(child, faults) {
-            parameters.insert(name.value.clone(), value);
+        if let Some(EffectParameter { name, value, unit }) = effect_parameter(child, faults) {
+            parameters.insert(name.value.clone(), value.value);
+            places.insert(name.value.clone(), (value.place, unit));
             names.push(name);
         }
     }
     crate::prototype::refuse_doubles(names.iter(), "parameters", faults);
-    let component = element.attribute("component").map(|component| component.value.clone());
-    Some(EffectSpec { place: place?, kind: kind?.value, component, parameters })
+    let component = element.attribute("component").cloned();
+    let (kind, place) = (kind?, place?);
+    let places = EffectPlaces {
+        element: element.name.place.clone(),
+        kind: kind.place,
+        place: element.attribute("place")?.place.clone(),
+        component: component.as_ref().map(|component| component.place.clone()),
+        parameters: places,
+    };
+    let component = component.map(|component| component.value);
+    Some(EffectDeclaration { spec: EffectSpec { place, kind: kind.value, component, parameters }, places })
 }
 
-/// A number in SI, whatever its unit, or else a text.
-fn effect_parameter(element: &Element, faults: &mut Faults) -> Option<(Located<String>, ParameterValue)> {
+/// A `<parameter>` of an `<effect>`.
+struct EffectParameter {
+    name: Located<String>,
+    /// A number in SI, whatever its unit, or else a text.
+    value: Located<ParameterValue>,
+    unit: Option<Located<Unit>>,
+}
+
+fn effect_parameter(element: &Element, faults: &mut Faults) -> Option<EffectParameter> {
     element.allow_attributes(&["name", "value", "unit"], faults);
     element.allow_children(&[], faults);
     let (name, value) = (element.required("name", faults), element.required("value", faults));
-    let unit = unit(element, faults).map(|unit| unit.value);
+    let unit = unit(element, faults);
     let value = value?;
     let every: Vec<Quantity> = Unit::ALL.iter().map(|unit| unit.quantity).collect();
-    let parameter = match parse_number(&value.value, unit, &every) {
+    let parameter = match parse_number(&value.value, unit.as_ref().map(|unit| unit.value), &every) {
         Ok(number) => ParameterValue::Number(number),
         Err(error) if unit.is_some() => {
             faults.push(value.fault(error.found, error.expected));
@@ -250,7 +274,8 @@ fn effect_parameter(element: &Element, faults: &mut Faults) -> Option<(Located<S
         }
         Err(_) => ParameterValue::Text(value.value.clone()),
     };
-    Some((name?.clone(), parameter))
+    let unit = unit.or_else(|| Some(Located::new(unit_in(&value.value)?, &value.place)));
+    Some(EffectParameter { name: name?.clone(), value: Located::new(parameter, &value.place), unit })
 }
 
 fn part(element: &Element, faults: &mut Faults) -> Option<PartDeclaration> {

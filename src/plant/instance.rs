@@ -82,7 +82,7 @@ pub(super) fn build(
         prototype: prototype.meta.name.value.clone(),
         pose: declaration.pose.unwrap_or_default(),
         tasks,
-        effects: declaration.effects.clone(),
+        effects: declaration.effects.iter().map(|effect| effect.spec.clone()).collect(),
     };
     Built { instance, references, set }
 }

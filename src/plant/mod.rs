@@ -22,7 +22,7 @@ use crate::signal_map::{RegisterId, SignalMap};
 pub use self::effect_spec::{EffectPlace, EffectSpec};
 pub use self::insert::{Edited, insert};
 pub use self::load::{ModelError, load, locate};
-pub use self::places::Places;
+pub use self::places::{EffectPlaces, Places};
 
 /// A plant, ready to be built into an engine.
 #[derive(Clone, Debug)]

@@ -86,6 +86,11 @@ pub fn with_unit(text: &str, unit: Option<Unit>) -> String {
     }
 }
 
+/// The unit that stands behind the first number of a text.
+pub fn unit_in(text: &str) -> Option<Unit> {
+    tokens(text, &[]).ok()?.first()?.1
+}
+
 /// The numbers of a text, each with the unit that follows it.
 fn tokens(text: &str, quantities: &[Quantity]) -> Result<Vec<(f64, Option<Unit>)>, NumberError> {
     let mut numbers: Vec<(f64, Option<Unit>)> = Vec::new();

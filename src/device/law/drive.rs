@@ -45,6 +45,20 @@ impl Drive {
         self.settings.slopes = Slopes { rising, falling };
     }
 
+    /// From now on it slows down so while it is off, whatever its ramp.
+    pub fn coast(&mut self, deceleration: f64) {
+        self.settings.coasting = Some(deceleration);
+    }
+
+    /// For how long from now on its speed keeps its slope if no command comes, s.
+    pub fn steady(&self) -> f64 {
+        if self.ready() {
+            return self.ramp.steady(self.reference, self.settings.slopes);
+        }
+        let slowing = self.ramp.steady(0.0, self.run_down_slopes());
+        if self.enabled { slowing.min(self.settings.ready_delay - self.waited) } else { slowing }
+    }
+
     /// Whether it is enabled and ready: at once without a delay.
     pub fn ready(&self) -> bool {
         self.enabled && self.waited >= self.settings.ready_delay - SAME_INSTANT_S
@@ -71,8 +85,12 @@ impl Drive {
 
     /// Slows down, as it does while it is not ready.
     fn run_down(&mut self, seconds: f64) -> f64 {
+        self.ramp.advance(0.0, self.run_down_slopes(), seconds)
+    }
+
+    fn run_down_slopes(&self) -> Slopes {
         let falling = self.settings.coasting.unwrap_or(self.settings.slopes.falling);
-        self.ramp.advance(0.0, Slopes { falling, ..self.settings.slopes }, seconds)
+        Slopes { falling, ..self.settings.slopes }
     }
 
     /// Its numbers, for a state's hash.

@@ -108,6 +108,11 @@ impl Profile {
         None
     }
 
+    /// For how long from now on its acceleration stays as it is if no target comes, s.
+    pub fn steady(&self) -> f64 {
+        self.now().map_or(f64::INFINITY, |(segment, seconds)| segment.seconds - seconds)
+    }
+
     fn plan(&mut self, target: f64) {
         let (position, velocity) = (self.position(), self.velocity());
         let Limits { velocity: fastest, acceleration } = self.limits;

@@ -31,6 +31,21 @@ impl Ramp {
         way + self.velocity * rest
     }
 
+    /// For how long from now on it keeps its slope if the target stays: until it is there, or at 0 on its way to the other
+    /// side; s.
+    pub fn steady(&self, target: f64, slopes: Slopes) -> f64 {
+        let way = (target - self.velocity).abs();
+        if self.velocity * target < 0.0 {
+            self.velocity.abs() / slopes.falling
+        } else if target.abs() < self.velocity.abs() {
+            way / slopes.falling
+        } else if way > 0.0 {
+            way / slopes.rising
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// Goes to `goal` with `slope`, or as far as `rest` reaches; takes the time it needed off `rest`.
     fn leg(&mut self, goal: f64, slope: f64, rest: &mut f64) -> f64 {
         let start = self.velocity;

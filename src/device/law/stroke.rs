@@ -69,6 +69,22 @@ impl Stroke {
         self.position - start
     }
 
+    /// For how long from now on it keeps its speed if it is driven so: until it is at its end stop, s.
+    pub fn steady(&self, drive: Drive) -> f64 {
+        match drive {
+            Drive::Hold => f64::INFINITY,
+            Drive::Extend => (self.settings.length - self.position) / self.settings.extend_speed,
+            Drive::Retract => self.position / self.settings.retract_speed,
+        }
+    }
+
+    /// Moves by `way`, no further than to an end stop, and returns the way gone: what carries it on when nothing drives it.
+    pub fn drift(&mut self, way: f64) -> f64 {
+        let start = self.position;
+        self.position = (start + way).clamp(0.0, self.settings.length);
+        self.position - start
+    }
+
     /// Whether it is within the tolerance of the extended end, the tolerance included.
     pub fn at_extended(&self) -> bool {
         self.position >= self.settings.length - self.settings.limit_tolerance - SAME_VALUE

@@ -7,7 +7,7 @@
 
 use super::contact::{self, Body, CONTACT_M, nearest_contact};
 use super::part::{Slot, Support};
-use super::{Floor, Transfer};
+use super::{BeltBody, Floor, Transfer};
 use crate::kinematics::{Bounds, DVec2, Motion, TOUCH_M};
 
 /// A body of the floor.
@@ -51,6 +51,14 @@ impl Scratch {
             BodyState { id: BodyId::Group(slot), from, moves: true, .. } => Some((slot, from)),
             _ => None,
         }
+    }
+
+    /// The groups that the others kept from moving as far as they would have.
+    pub fn held_back(&self) -> impl Iterator<Item = Slot> {
+        self.bodies.iter().filter(|body| body.share < 1.0).filter_map(|body| match body.id {
+            BodyId::Group(slot) => Some(slot),
+            BodyId::Plate(_) => None,
+        })
     }
 
     /// Whether the body of this key is there and does not move in this step.
@@ -119,14 +127,25 @@ impl Floor {
             let total: f64 = standing.iter().map(|(_, area)| area).sum();
             let mut motion = Motion::NONE;
             // A belt that carries nothing of it moves nothing of it; that rules a total of 0 out, too.
+            let bridges = standing.iter().filter(|(_, area)| *area > 0.0).count() > 1;
             for &(index, area) in standing.iter().filter(|(_, area)| *area > 0.0) {
-                let part = self.belts[index].surface.carry(centre, self.belts[index].displacement);
+                let part = self.belts[index].surface.carry(centre, self.way_of(index, bridges));
                 motion.shift += part.shift * (area / total);
                 motion.turn += part.turn * (area / total);
             }
             return motion;
         }
-        if own.displacement == 0.0 { Motion::NONE } else { own.surface.carry(centre, own.displacement) }
+        if own.displacement == 0.0 {
+            return Motion::NONE;
+        }
+        let bridges = own.transfer_slip > 0.0 && self.standing(block, belt).iter().any(|(at, _)| *at != belt);
+        own.surface.carry(centre, self.way_of(belt, bridges))
+    }
+
+    /// How far a belt takes a part that stands on it, and on another if it `bridges`.
+    fn way_of(&self, belt: usize, bridges: bool) -> f64 {
+        let BeltBody { displacement, transfer_slip, .. } = self.belts[belt];
+        if bridges { (1.0 - transfer_slip) * displacement } else { displacement }
     }
 
     /// The body of an id.

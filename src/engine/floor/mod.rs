@@ -34,6 +34,8 @@ pub(super) struct BeltBody {
     pub name: String,
     pub surface: Surface,
     pub transfer: Transfer,
+    /// Which share of its way on this belt a part loses that stands on another, too.
+    pub transfer_slip: f64,
     /// How far it moved in this step, m on the centre line.
     pub displacement: f64,
     /// The other belts that a part on this one may stand on too.
@@ -53,6 +55,8 @@ pub(super) struct PlateBody {
     pub block: Block,
     /// How far it moved in this step, m.
     pub displacement: f64,
+    /// How many parts it pushed in this step, those that stand on others apart.
+    pub pushed: u32,
     pub beams: [Option<Beam>; 2],
 }
 
@@ -73,6 +77,7 @@ impl PlateBody {
             direction: along.truncate().normalize_or(DVec2::X),
             block: Block::new(DVec3::from_array(plate.size), Upright::default()),
             displacement: 0.0,
+            pushed: 0,
             beams: plate.barriers.map(beam),
         };
         body.set(plate.position, 0.0, thickness);

@@ -13,11 +13,16 @@ impl Floor {
     pub(super) fn push(&mut self) {
         for index in 0..self.plates.len() {
             let plate = &self.plates[index];
+            let before = self.handled.len();
             if plate.displacement != 0.0 {
                 let way = plate.direction * plate.displacement;
                 let block = plate.block;
                 self.push_from(&block, None, way);
             }
+            let mut pushed: Vec<Slot> = self.handled[before..].iter().map(|slot| self.parts.root_of(*slot)).collect();
+            pushed.sort_unstable();
+            pushed.dedup();
+            self.plates[index].pushed = pushed.len() as u32;
         }
     }
 

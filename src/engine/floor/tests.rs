@@ -18,6 +18,7 @@ fn belt(shape: Shape, x: f64, y: f64, yaw: f64) -> BeltBody {
         name: format!("belt at {x}, {y}"),
         surface,
         transfer: Transfer::Most,
+        transfer_slip: 0.0,
         displacement: 0.0,
         neighbours: Vec::new(),
         open: [true; 2],
