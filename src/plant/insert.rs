@@ -75,7 +75,9 @@ fn placed(addition: &Addition, indent: &str) -> String {
     let own = lines().last().map_or(0, |line| line.len() - line.trim_start().len());
     let mut out = format!("{indent}{}", text.lines().next().unwrap_or_default().trim_end());
     for line in lines() {
-        let deeper = &line[own.min(line.len() - line.trim_start().len())..];
+        // Blanks may be wider than a byte; then they are not counted off one by one.
+        let blanks = line.len() - line.trim_start().len();
+        let deeper = line.get(own.min(blanks)..).unwrap_or_else(|| line.trim_start());
         out.push_str(&format!("\n{indent}{}", deeper.trim_end()));
     }
     out
@@ -143,6 +145,30 @@ mod tests {
             "<plant>\n  <instance name=\"A\"><pose/></instance >\n</plant>",
             &format!("<plant>\n  <instance name=\"A\"><pose/>{effects}\n</plant>"),
         );
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn whatever_the_layout_the_effect_is_in_it(
+            blanks in "[ \t\n\u{a0}\u{2003}]{0,4}",
+            inside in "([ \n]|<pose/>|<!-- ä -->){0,4}",
+            own in "[ \u{a0}\t]{0,3}",
+        ) {
+            let effects = EFFECTS.replace("    <effect", &format!("{own}<effect")).replace("      <", &format!("{own} <"));
+            let effects = read("effects.xml", &effects).expect("effects").effects;
+            let name = "name=\"A\"";
+            for text in [
+                format!("<plant>{blanks}<instance {name}>{inside}</instance>{blanks}</plant>"),
+                format!("<plant>{blanks}<instance {name}/>{blanks}</plant>"),
+                format!("<plant>{inside}{blanks}</plant>"),
+                "<plant/>".to_owned(),
+            ] {
+                let Ok(edited) = insert("plant.xml", &text, &effects, None) else { continue };
+                let root = parse("plant.xml", &edited.text).expect("well-formed");
+                let instance = root.children_named("instance").next().expect("the instance");
+                proptest::prop_assert_eq!(instance.children_named("effect").count(), 2, "{}", edited.text);
+            }
+        }
     }
 
     #[test]

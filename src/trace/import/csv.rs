@@ -11,6 +11,9 @@ use super::names::Names;
 use super::wide::Wide;
 use super::{ImportError, Settings, cell};
 
+/// What is longer is no line of names, in bytes; its cells are read all the same.
+const LONGEST_HEADER: u64 = 1 << 20;
+
 /// A table, with what errors call it.
 pub struct Table<R> {
     pub file: String,
@@ -129,7 +132,7 @@ impl<R: Read> Opened<R> {
         let Table { file, input, clock } = table;
         let mut input = BufReader::with_capacity(1 << 16, input);
         let mut first = Vec::new();
-        if let Err(source) = input.read_until(b'\n', &mut first) {
+        if let Err(source) = input.by_ref().take(LONGEST_HEADER).read_until(b'\n', &mut first) {
             return Err(ImportError::Read { file, source });
         }
         let mut builder = ::csv::ReaderBuilder::new();

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::io::{Read, Write};
 
+use ::mcap::sans_io::LinearReaderOptions;
 use serde_json::Value;
 
 use crate::time::Instant;
@@ -41,6 +42,9 @@ pub fn mcap<R: Read, W: Write>(
     Ok(imported)
 }
 
+/// A file that claims a longer record, or chunk, is broken: nobody logs so much at once.
+const LONGEST_RECORD: usize = 1 << 30;
+
 #[derive(Default)]
 struct Messages {
     /// Each message's log time, and its columns with their texts.
@@ -53,7 +57,8 @@ fn read<R: Read>(file: &str, input: R, settings: &mut Settings) -> Result<Messag
     let broken = |problem: String| ImportError::File { file: file.to_owned(), problem };
     let has_items = !settings.maps.is_empty();
     let mut messages = Messages::default();
-    for message in ::mcap::io::MessageReader::new(input) {
+    let options = LinearReaderOptions::default().with_record_length_limit(LONGEST_RECORD);
+    for message in ::mcap::io::MessageReader::new_with_options(input, options) {
         let message = message.map_err(|error| broken(format!("no MCAP file that can be read: {error}")))?;
         let topic = &message.channel.topic;
         if message.channel.message_encoding != "json" {

@@ -267,6 +267,33 @@ proptest! {
     }
 }
 
+proptest! {
+    #[test]
+    fn no_table_brings_it_down(text in "[t,;x0-9.eE+\\-\n\"NaÄ\u{0}\u{feff} ]{0,80}", map in "[x!*/+.=0-9Aä:-]{0,12}") {
+        let mut settings = Settings { from_zero: true, ..Settings::default() };
+        settings.maps.extend(map.parse());
+        let shapes = [Shape::Wide, Shape::Long { name: "x".to_owned(), value: "t".to_owned() }];
+        for clock in [seconds("t"), Clock::Rate(1e-300), Clock::Rate(1e300)] {
+            for shape in &shapes {
+                let _ = import(&[&text], &clock, shape, &settings);
+                let _ = import(&[&format!("t,x\n{text}"), &text], &clock, shape, &settings);
+            }
+        }
+    }
+
+    #[test]
+    fn no_broken_mcap_file_brings_it_down(plan in plans(), at in 0usize..4096, byte in any::<u8>(), cut in 0usize..4096) {
+        let trace = written(&plan);
+        let (mut file, _) =
+            export::mcap(Reader::new("trace", &trace[..]).expect("a trace"), None, Vec::new()).expect("a file");
+        let at = at % file.len();
+        file[at] = byte;
+        file.truncate(file.len() - cut % (file.len() / 4));
+        let mut out = Writer::new(Vec::new(), Compression::None, &Header::default()).expect("a writer");
+        let _ = mcap("a.mcap", &file[..], &Settings::default(), &mut out);
+    }
+}
+
 #[test]
 fn what_is_no_mcap_file_is_refused() {
     let check = |file: &[u8], words: &str| {
