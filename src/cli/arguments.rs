@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand};
 
 use super::apply::ApplyArguments;
+use super::diagnose::DiagnoseArguments;
 use super::locate::LocateArguments;
 use super::table::{ExportArguments, ImportArguments};
 use crate::adapter::ParseEndpointError;
@@ -63,6 +64,7 @@ pub enum Command {
 pub enum GapCommand {
     Apply(ApplyArguments),
     Locate(LocateArguments),
+    Diagnose(DiagnoseArguments),
 }
 
 #[derive(Debug, Subcommand)]

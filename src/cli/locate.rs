@@ -117,13 +117,13 @@ pub fn run(arguments: &LocateArguments) -> Result<Answer, Failure> {
     Ok(if location.devices.iter().any(|device| device.own) { Answer::No } else { Answer::Yes })
 }
 
-fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
+pub(super) fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
     let file = File::open(path)
         .map_err(|error| Failure(format!("error: failed to read the trace {}: {error}", path.display())))?;
     Reader::new(path.to_string_lossy(), BufReader::with_capacity(1 << 16, file)).map_err(|error| Failure::of(&error))
 }
 
-fn masks(path: &Path) -> Result<Vec<Span>, Failure> {
+pub(super) fn masks(path: &Path) -> Result<Vec<Span>, Failure> {
     let fail =
         |error: &dyn std::fmt::Display| Failure(format!("error: failed to read the mask {}: {error}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| fail(&error))?;

@@ -22,9 +22,12 @@
 
 mod alone;
 mod apply;
+pub mod cause;
 mod cost;
+pub mod diagnosis;
 mod edges;
 mod effects;
+pub mod fit;
 mod floor;
 mod grid;
 mod locate;
@@ -37,6 +40,7 @@ pub mod production;
 mod recording;
 pub mod report;
 mod score;
+pub mod statistics;
 mod study;
 mod subject;
 mod surroundings;

@@ -1,0 +1,184 @@
+//! `kinetwin gap diagnose`: where the gap is, which effect causes it, and how far it shrinks.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::locate::{masks, open};
+use super::output::write_whole;
+use super::signals::Interruption;
+use super::{Answer, Failure};
+use crate::effect;
+use crate::gap::cause::Progress;
+use crate::gap::diagnosis::{self, Diagnosis, Options, Split};
+use crate::gap::page::page;
+use crate::gap::report::{MadeFrom, Report};
+use crate::gap::{Recording, effects_xml};
+use crate::plant::{Plant, effects_file};
+use crate::run::{Stop, model};
+
+/// Says where the model parts from the machine, which unmodelled effect causes it, and how far the gap shrinks with it.
+///
+/// Every device is looked at alone, driven by the recorded commands. What its reports hold above their noise is explained by
+/// as few effects of the library as are worth having; the held-out traces are opened once, when all is fixed.
+/// Ctrl-C ends with the best answer so far, marked incomplete.
+#[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
+pub struct DiagnoseArguments {
+    /// The plant: a folder with a plant.xml, a plant's file, or a name of the catalogue
+    #[arg(long, value_name = "MODEL")]
+    pub model: String,
+    /// Recordings of the machine to learn from
+    #[arg(long, value_name = "TRACE", num_args = 1.., required = true)]
+    pub train: Vec<PathBuf>,
+    /// Recordings that no fit sees, to measure on; without any, spans of the training are kept back
+    #[arg(long, value_name = "TRACE", num_args = 1..)]
+    pub holdout: Vec<PathBuf>,
+    /// The effects to look for, by their ids [default: all]
+    #[arg(long, value_name = "ID", value_delimiter = ',')]
+    pub effects: Vec<String>,
+    /// The devices to look at, by their instances' names [default: all]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub devices: Vec<String>,
+    /// Spans to leave out of every trace: lines FROM,TO in seconds since its start, and perhaps ,WHY
+    ///
+    /// For manual operation, jams and emergency stops, which are no evidence of how the machine works.
+    #[arg(long, value_name = "FILE")]
+    pub mask: Option<PathBuf>,
+    /// The folder for report.json, report.html and effects.xml; what stands there under these names is replaced
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Prints the report as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const HELP: &str = "\
+Examples:
+  kinetwin gap diagnose --model models/rig --train monday.cps.jsonl.zst --holdout tuesday.cps.jsonl.zst --out gap
+  kinetwin gap diagnose --model models/rig --train monday.cps.jsonl --devices Robot,Belt --effects dead-time,backlash --out gap
+
+Exit codes:
+  0  a verdict was given, whatever it is
+  2  bad input or use";
+
+/// Does what was asked.
+pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
+    let plant = model::load(&arguments.model)?;
+    let effects = asked(&arguments.effects)?;
+    let devices = meant(&plant, &arguments.devices)?;
+    let masks = arguments.mask.as_deref().map(masks).transpose()?.unwrap_or_default();
+    let read = |paths: &[PathBuf]| {
+        let recording = |path: &PathBuf| {
+            let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks);
+            recording.map_err(|error| Failure::of(&error))
+        };
+        paths.iter().map(recording).collect::<Result<Vec<_>, _>>()
+    };
+    let (train, holdout) = (read(&arguments.train)?, read(&arguments.holdout)?);
+    let Split { train, held_out } = match holdout.is_empty() {
+        true => diagnosis::kept_back(&train),
+        false => Split { train, held_out: holdout },
+    };
+    std::fs::create_dir_all(&arguments.out)
+        .map_err(|error| Failure(format!("error: failed to make the folder {}: {error}", arguments.out.display())))?;
+    let stop = Stop::default();
+    let interruption = Interruption::watch(stop)?;
+    let bar = progress_bar();
+    let options = Options {
+        is_asked: &|id| effects.as_ref().is_none_or(|asked| asked.iter().any(|effect| effect == id)),
+        is_meant: &|name| devices.as_ref().is_none_or(|meant| meant.iter().any(|device| device == name)),
+        is_stopped: &|| interruption.is_asked(),
+        tell: &|progress| show(&bar, progress),
+    };
+    let answer = diagnosis::diagnose(&plant, &train, &held_out, &options).map_err(|error| Failure::of(&error))?;
+    bar.finish_and_clear();
+    write(&plant, arguments, answer)
+}
+
+/// The effects to look for; `None` for all.
+fn asked(list: &[String]) -> Result<Option<Vec<String>>, Failure> {
+    if list.is_empty() || list.iter().any(|id| id == "all") {
+        return Ok(None);
+    }
+    match list.iter().find(|id| effect::named(id).is_none()) {
+        Some(unknown) => Err(Failure(format!(
+            "error: --effects: there is no effect {unknown:?}; `kinetwin gap diagnose --effects all` tries every one"
+        ))),
+        None => Ok(Some(list.to_vec())),
+    }
+}
+
+/// The devices to look at; `None` for all.
+fn meant(plant: &Plant, list: &[String]) -> Result<Option<Vec<String>>, Failure> {
+    let is_there = |name: &&String| plant.instances.iter().any(|instance| instance.name == **name);
+    match list.iter().find(|name| !is_there(name)) {
+        Some(unknown) => {
+            let names: Vec<&str> = plant.instances.iter().map(|instance| instance.name.as_str()).collect();
+            Err(Failure(format!("error: --devices: the model has no {unknown:?}; it has {}", names.join(", "))))
+        }
+        None => Ok(Some(list.to_vec()).filter(|list| !list.is_empty() && list.iter().all(|name| name != "all"))),
+    }
+}
+
+fn progress_bar() -> ProgressBar {
+    let target =
+        if std::io::stderr().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let style = ProgressStyle::with_template("{prefix:12} {bar:30} {pos:>4}/{len:4} candidates, {eta} left  {msg}");
+    let bar = ProgressBar::with_draw_target(Some(0), target);
+    // The template is a constant; were it faulty, the plain bar would do.
+    style.map_or(bar.clone(), |style| bar.with_style(style))
+}
+
+fn show(bar: &ProgressBar, progress: &Progress) {
+    if bar.prefix() != progress.device {
+        bar.reset_eta();
+        bar.set_prefix(progress.device.clone());
+    }
+    bar.set_length(progress.of as u64);
+    bar.set_position(progress.tried as u64);
+    bar.set_message(format!("best: {}", progress.best));
+}
+
+fn write(plant: &Plant, arguments: &DiagnoseArguments, answer: Diagnosis) -> Result<Answer, Failure> {
+    let evidence = answer.evidence(plant).map_err(|error| Failure::of(&error))?;
+    let Diagnosis { mut report, .. } = answer;
+    let paths = |paths: &[PathBuf]| paths.iter().map(|path| path.display().to_string()).collect();
+    report.made_from = Some(MadeFrom {
+        model: arguments.model.clone(),
+        train: paths(&arguments.train),
+        holdout: paths(&arguments.holdout),
+        mask: arguments.mask.as_ref().map(|path| path.display().to_string()),
+    });
+    let effects = effects_xml(&report, &plant.name);
+    let none =
+        || effects_file::write(&plant.name, &[], &format!("A diagnosis found nothing to add ({}).", report.verdict));
+    put(arguments, "report.json", &report.to_json())?;
+    put(arguments, "report.html", &page(&report, &evidence))?;
+    put(arguments, "effects.xml", &effects.unwrap_or_else(none))?;
+    if arguments.json {
+        println!("{}", serde_json::to_string(&report)?);
+    } else {
+        print!("{}", summary(&report));
+    }
+    Ok(Answer::Yes)
+}
+
+fn put(arguments: &DiagnoseArguments, name: &str, text: &str) -> Result<(), Failure> {
+    write_whole(&arguments.out.join(name), true, |mut file| {
+        file.write_all(text.as_bytes())?;
+        Ok((file, ()))
+    })
+}
+
+/// The answer in some lines.
+fn summary(report: &Report) -> String {
+    let said = report.answer();
+    let mut text = format!("verdict  {}{}\n", report.verdict, if report.incomplete { " (incomplete)" } else { "" });
+    for (name, sentence) in [("where", said.place), ("which", said.cause), ("how far", said.shrink)] {
+        text.push_str(&format!("{name:7}  {sentence}\n"));
+    }
+    text
+}

@@ -1,0 +1,193 @@
+//! A device under test: candidates in, deviance out.
+
+use super::candidate::Candidate;
+use super::nuisance::Nuisance;
+use crate::gap::fit::{self, Effort, Fitted, Range, Residuals};
+use crate::gap::statistics::inflation;
+use crate::gap::{Overrides, Predicted, Prediction, Score, Subject};
+use crate::plant::EffectSpec;
+
+/// The length of a block of time, s: at least some correlation times of a residual.
+const BLOCK_S: f64 = 2.0;
+
+/// A device, and what all fits of it have in common.
+pub struct Bench<'a> {
+    pub subject: &'a Subject,
+    /// Nominal parameters that are fitted with every candidate, within their tolerances.
+    pub nuisances: Vec<Nuisance>,
+    /// Whoever waits for the answer wants it now.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// A set of candidates with their parameters, and what it costs.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    pub set: Vec<Candidate>,
+    /// The free parameters of the set, in its order, then the nuisances.
+    pub at: Vec<f64>,
+    pub ranges: Vec<Range>,
+    /// The deviance, with what the nuisances cost.
+    pub cost: f64,
+    /// The deviance of each block of time.
+    pub blocks: Vec<f64>,
+    /// The correlation of neighbouring residuals.
+    pub correlation: f64,
+}
+
+impl Trial {
+    /// How many free parameters the candidates have.
+    pub fn parameters(&self) -> usize {
+        self.set.iter().map(|candidate| candidate.free.len()).sum()
+    }
+
+    /// How many times too large the deviance is for its correlation.
+    pub fn inflation(&self) -> f64 {
+        inflation(self.correlation)
+    }
+
+    /// The free parameters of each candidate.
+    pub fn values(&self) -> impl Iterator<Item = (&Candidate, &[f64])> {
+        let mut rest = self.at.as_slice();
+        self.set.iter().map(move |candidate| {
+            let (own, others) = rest.split_at(candidate.free.len());
+            rest = others;
+            (candidate, own)
+        })
+    }
+
+    /// The effects that it adds.
+    pub fn specs(&self) -> Vec<EffectSpec> {
+        self.values().map(|(candidate, at)| candidate.spec(at)).collect()
+    }
+
+    /// As one that a search ended with.
+    pub fn fitted(&self) -> Fitted {
+        Fitted { at: self.at.clone(), cost: self.cost, curvature: Vec::new(), evaluations: 0 }
+    }
+}
+
+impl Bench<'_> {
+    /// Whether the answer is wanted now.
+    pub fn is_stopped(&self) -> bool {
+        (self.stop)()
+    }
+
+    /// The nuisances that a set leaves free: not those that it sets itself.
+    fn nuisances_beside<'b>(&'b self, set: &'b [Candidate]) -> impl Iterator<Item = &'b Nuisance> {
+        let is_set = |nuisance: &&Nuisance| {
+            let sets = |candidate: &Candidate| {
+                candidate.is_parameter_error() && candidate.component.as_deref() == Some(nuisance.name)
+            };
+            !set.iter().any(sets)
+        };
+        self.nuisances.iter().filter(is_set)
+    }
+
+    /// What the device reports with `set` at `at`; nuisances for which `at` holds no value are nominal.
+    pub fn predict(&self, set: &[Candidate], at: &[f64]) -> Option<Prediction> {
+        let mut rest = at;
+        let mut specs = Vec::with_capacity(set.len());
+        for candidate in set {
+            let (own, others) = rest.split_at_checked(candidate.free.len())?;
+            specs.push(candidate.spec(own));
+            rest = others;
+        }
+        let nuisances =
+            self.nuisances_beside(set).zip(rest).map(|(nuisance, value)| (nuisance.name.to_owned(), *value));
+        self.subject.predict(&specs, &Overrides(nuisances.collect())).ok()
+    }
+
+    /// The residuals of a set, those of the nuisances' tolerances behind.
+    pub fn residuals(&self, set: &[Candidate], at: &[f64]) -> Option<Vec<f64>> {
+        if self.is_stopped() {
+            return None;
+        }
+        let mut residuals = self.subject.score(&self.predict(set, at)?).residuals();
+        residuals.extend(self.strain(set, at));
+        Some(residuals)
+    }
+
+    /// How far the nuisances lie from nominal, each in its standard deviation.
+    pub fn strain(&self, set: &[Candidate], at: &[f64]) -> Vec<f64> {
+        let own: usize = set.iter().map(|candidate| candidate.free.len()).sum();
+        let values = at.iter().skip(own);
+        self.nuisances_beside(set).zip(values).map(|(nuisance, value)| nuisance.strain(*value)).collect()
+    }
+
+    /// The ranges of all that is free with `set`.
+    pub fn ranges(&self, set: &[Candidate]) -> Vec<Range> {
+        let own = set.iter().flat_map(Candidate::ranges);
+        own.chain(self.nuisances_beside(set).map(Nuisance::range)).collect()
+    }
+
+    /// The nominal values of the nuisances beside `set`.
+    pub fn nominal(&self, set: &[Candidate]) -> Vec<f64> {
+        self.nuisances_beside(set).map(|nuisance| nuisance.nominal).collect()
+    }
+
+    /// Fits a set from the best of `starts`, which hold a value for each of its ranges.
+    pub fn fit(&self, set: &[Candidate], starts: &[Vec<f64>], effort: Effort) -> Option<Trial> {
+        let ranges = self.ranges(set);
+        let residuals = |at: &[f64]| self.residuals(set, at);
+        let residuals: &Residuals<'_> = &residuals;
+        let found = fit::search(residuals, starts, &ranges, effort)?;
+        self.trial(set, found.at)
+    }
+
+    /// What a set costs at `at`.
+    pub fn trial(&self, set: &[Candidate], at: Vec<f64>) -> Option<Trial> {
+        let score = self.subject.score(&self.predict(set, &at)?);
+        let strain = fit::sum_of_squares(&self.strain(set, &at));
+        Some(Trial {
+            ranges: self.ranges(set),
+            cost: score.total + strain,
+            blocks: self.blocks(&score),
+            correlation: correlation(&score),
+            set: set.to_vec(),
+            at,
+        })
+    }
+
+    /// The deviance of each block of time of all runs.
+    pub fn blocks(&self, score: &Score) -> Vec<f64> {
+        let counts = self.subject.runs.iter().map(|run| (run.ends / BLOCK_S).ceil().max(1.0) as usize);
+        let mut firsts = vec![0];
+        firsts.extend(counts.scan(0, |sum, count| {
+            *sum += count;
+            Some(*sum)
+        }));
+        let mut blocks = vec![0.0; *firsts.last().unwrap_or(&0)];
+        for (run, at, cost) in score.costs() {
+            let inside = (at.max(0.0) / BLOCK_S) as usize;
+            blocks[(firsts[run] + inside).min(firsts[run + 1] - 1)] += cost;
+        }
+        blocks
+    }
+
+    /// Whether two predictions differ by more than a tenth of a step, RMS, in any signal, or in an edge.
+    pub fn differ(&self, one: &Prediction, other: &Prediction) -> bool {
+        let runs = self.subject.runs.iter().zip(one.runs.iter().zip(&other.runs));
+        runs.into_iter().any(|(run, (one, other))| {
+            one.iter().zip(other).enumerate().any(|(signal, pair)| match pair {
+                (Predicted::Level(one), Predicted::Level(other)) => {
+                    let squares: f64 = one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum();
+                    (squares / one.len().max(1) as f64).sqrt() > 0.1 * run.floors[signal].step
+                }
+                (Predicted::Edges { edges: one, .. }, Predicted::Edges { edges: other, .. }) => {
+                    let moved =
+                        |(a, b): (&crate::gap::PredictedEdge, &crate::gap::PredictedEdge)| (a.at - b.at).abs() > 1e-4;
+                    one.len() != other.len() || one.iter().zip(other).any(moved)
+                }
+                _ => false,
+            })
+        })
+    }
+}
+
+/// The correlation of each residual with the next of its signal, all levels together.
+fn correlation(score: &Score) -> f64 {
+    let levels = || score.signals.iter().filter_map(|signal| signal.level.as_ref());
+    let products: f64 = levels().flat_map(|level| level.residual.windows(2)).map(|pair| pair[0] * pair[1]).sum();
+    let squares: f64 = levels().flat_map(|level| &level.residual).map(|residual| residual * residual).sum();
+    if squares > 0.0 { products / squares } else { 0.0 }
+}

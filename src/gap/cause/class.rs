@@ -1,0 +1,154 @@
+//! What these recordings cannot tell from the answer, and how heavy everything else is.
+
+use rayon::prelude::*;
+
+use super::bench::{Bench, Trial};
+use super::candidate::Candidate;
+use super::ladder::{DRAWS, Ladder, Tell, handicap, rung};
+use crate::gap::fit::{least_squares, sum_of_squares};
+use crate::gap::statistics::{Draws, SAME_CLASS};
+use crate::plant::EffectPlace;
+
+/// Something else that could stand in the place of an effect of the answer.
+#[derive(Clone, Debug)]
+pub struct Alternative {
+    /// The answer with this candidate, the last of the set, in the effect's place.
+    pub trial: Trial,
+    /// How far its output lies from the answer's once fitted to it, whitened and squared.
+    pub distance: f64,
+    /// Whether these recordings cannot tell it from the effect.
+    pub is_same: bool,
+    pub weight: f64,
+}
+
+impl Alternative {
+    /// The candidate that stands in the effect's place.
+    pub fn candidate(&self) -> &Candidate {
+        &self.trial.set[self.trial.set.len() - 1]
+    }
+}
+
+/// One effect of the answer, with all that rivals it.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// Its place in the set of the best trial.
+    pub place: usize,
+    pub weight: f64,
+    /// Those of its class first, then by their cost.
+    pub alternatives: Vec<Alternative>,
+}
+
+/// How much more than the answer a candidate may cost and still be looked at: where a class ends, and as much again for what
+/// noise does to the difference.
+const NEAR: f64 = 4.0 * SAME_CLASS;
+
+/// Which of several effects that give the same motion is named: one inside the device before one of its commands, that before one
+/// of its sensors, and last one of the link behind them; a plain delay before a filter.
+pub fn plainness(candidate: &Candidate) -> u32 {
+    let place = match candidate.place {
+        EffectPlace::CommandLink => 1,
+        EffectPlace::Sensor => 2,
+        EffectPlace::ReportLink => 3,
+        _ => 0,
+    };
+    let is_filter = ["input-filter", "stale-hold", "clock-drift", "wrong-unit"].contains(&candidate.effect.id);
+    20 * u32::from(candidate.is_parameter_error()) + 10 * u32::from(is_filter) + place
+}
+
+/// The answers of a ladder: for each effect of its best set the class and the rivals.
+pub fn answers(
+    bench: &Bench<'_>,
+    ladder: &Ladder,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    tell: &Tell<'_>,
+) -> Vec<Answer> {
+    (0..ladder.best.set.len()).map(|place| answer(bench, ladder, place, is_asked, tell)).collect()
+}
+
+fn answer(
+    bench: &Bench<'_>,
+    ladder: &Ladder,
+    place: usize,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    tell: &Tell<'_>,
+) -> Answer {
+    let best = &ladder.best;
+    let named = &best.set[place];
+    let others = if best.set.len() == 1 {
+        ladder.singles.clone()
+    } else {
+        let without = without(bench, best, place);
+        without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost - ladder.floor.0, is_asked, tell))
+    };
+    let inflation = best.inflation();
+    let near: Vec<Trial> = others
+        .into_iter()
+        .filter(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)))
+        .filter(|trial| trial.cost - best.cost < NEAR * inflation)
+        .collect();
+    let mut alternatives: Vec<Alternative> =
+        near.into_par_iter().filter_map(|trial| alternative(bench, best, named, trial)).collect();
+    alternatives.sort_by(|a, b| b.is_same.cmp(&a.is_same).then(a.trial.cost.total_cmp(&b.trial.cost)));
+    // An effect that holds the answer as a special case explains no less: it is no rival. A nominal parameter that gives the
+    // same motion is another name for it.
+    alternatives.retain(|alternative| {
+        let candidate = alternative.candidate();
+        let holds_it = alternative.distance < SAME_CLASS * inflation && candidate.free.len() > named.free.len();
+        let is_alias = candidate.is_parameter_error() && !named.is_parameter_error() && alternative.is_same;
+        !holds_it && !is_alias
+    });
+    weigh(ladder, Answer { place, weight: 0.0, alternatives })
+}
+
+/// The best set without one of its effects, the others as they are.
+fn without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial> {
+    let mut set = best.set.clone();
+    let before: usize = set[..place].iter().map(|candidate| candidate.free.len()).sum();
+    let removed = set.remove(place);
+    let mut at = best.at[..best.parameters()].to_vec();
+    at.drain(before..before + removed.free.len());
+    at.extend(bench.nominal(&set));
+    bench.trial(&set, at)
+}
+
+/// Fits the candidate with all else to the answer's own output.
+fn alternative(bench: &Bench<'_>, best: &Trial, named: &Candidate, trial: Trial) -> Option<Alternative> {
+    let output = bench.predict(&best.set, &best.at)?;
+    let apart = |at: &[f64]| {
+        let mut residuals = bench.subject.apart(&output, &bench.predict(&trial.set, at)?);
+        residuals.extend(bench.strain(&trial.set, at));
+        (!bench.is_stopped()).then_some(residuals)
+    };
+    let distance = match trial.ranges.is_empty() {
+        true => sum_of_squares(&apart(&trial.at)?),
+        false => least_squares(&apart, &trial.at, &trial.ranges, 10 + 8 * trial.ranges.len() as u32)?.cost,
+    };
+    let last = trial.set.last()?;
+    let is_same = distance < SAME_CLASS * best.inflation() && last.free.len() <= named.free.len();
+    Some(Alternative { trial, distance, is_same, weight: 0.0 })
+}
+
+/// In which share of the draws each wins; a class shares its weight evenly among its members, as nothing tells them apart.
+fn weigh(ladder: &Ladder, mut answer: Answer) -> Answer {
+    let best = &ladder.best;
+    let inflation = best.inflation();
+    let below = best.set.len() - 1;
+    let rivals: Vec<usize> = (0..answer.alternatives.len()).filter(|at| !answer.alternatives[*at].is_same).collect();
+    let trials: Vec<&Trial> =
+        std::iter::once(best).chain(rivals.iter().map(|at| &answer.alternatives[*at].trial)).collect();
+    let scaled: Vec<Vec<f64>> =
+        trials.iter().map(|trial| trial.blocks.iter().map(|cost| cost / inflation).collect()).collect();
+    let blocks: Vec<&[f64]> = scaled.iter().map(Vec::as_slice).collect();
+    let handicaps: Vec<f64> = trials.iter().map(|trial| handicap(trial, below)).collect();
+    let wins = Draws::new(best.blocks.len(), DRAWS, 2).wins(&blocks, &handicaps);
+    let members = 1 + answer.alternatives.len() - rivals.len();
+    let each = wins[0] / members as f64;
+    answer.weight = each;
+    for alternative in answer.alternatives.iter_mut().filter(|alternative| alternative.is_same) {
+        alternative.weight = each;
+    }
+    for (at, win) in rivals.iter().zip(&wins[1..]) {
+        answer.alternatives[*at].weight = *win;
+    }
+    answer
+}

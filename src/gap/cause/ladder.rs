@@ -1,0 +1,279 @@
+//! The ladder: the best effect, then a second and a third beside it, as long as each is worth having.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+use super::bench::{Bench, Trial};
+use super::candidate::Candidate;
+use super::library;
+use crate::gap::fit::{Effort, Residuals, least_squares, search, sum_of_squares};
+use crate::gap::statistics::{Draws, least_gain, quantile};
+use crate::gap::{Prediction, Score};
+
+/// The most effects of one device.
+const MOST_EFFECTS: usize = 3;
+/// Of the excess, what an effect must explain at least: the lower bound of it.
+const LEAST_SHARE: f64 = 0.03;
+/// Draws of the block bootstrap.
+pub const DRAWS: usize = 400;
+/// What a candidate must explain to be looked at closely.
+const PROMISING: f64 = 0.02;
+
+/// How far a search is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// Candidates tried so far on this device, and how many there are.
+    pub tried: usize,
+    pub of: usize,
+    pub device: String,
+    /// The best candidate so far, and which share of the excess it explains.
+    pub best: String,
+    pub explains: f64,
+}
+
+/// Where progress is told.
+pub type Tell<'a> = dyn Fn(&Progress) + Sync + 'a;
+
+/// What climbing found.
+#[derive(Clone, Debug)]
+pub struct Ladder {
+    /// The model with its nuisances fitted and no effect added.
+    pub bare: Trial,
+    /// What the deviance would be where nothing is wrong, and the variance of that.
+    pub floor: (f64, f64),
+    /// The best set; the bare model where no effect is worth having.
+    pub best: Trial,
+    /// Every candidate alone, the best first.
+    pub singles: Vec<Trial>,
+    /// How many candidates were tried in all.
+    pub tried: usize,
+}
+
+impl Ladder {
+    /// What the bare model costs above the floor.
+    pub fn excess(&self) -> f64 {
+        self.bare.cost - self.floor.0
+    }
+}
+
+/// Climbs. `is_asked` says which effects are looked for.
+pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> Option<Ladder> {
+    let start = bench.nominal(&[]);
+    let bare = match start.is_empty() {
+        true => bench.trial(&[], start)?,
+        // Where the answer is wanted before anything is fitted, the nominal parameters stand.
+        false => {
+            let fitted = bench.fit(&[], std::slice::from_ref(&start), Effort { starts: 1, budget: 60 });
+            fitted.or_else(|| bench.trial(&[], start))?
+        }
+    };
+    let prediction = bench.predict(&[], &bare.at)?;
+    let score = bench.subject.score(&prediction);
+    let floor = floor(&score);
+    let mut ladder = Ladder { best: bare.clone(), bare, floor, singles: Vec::new(), tried: 0 };
+    if ladder.excess() < least_gain(1, 1) {
+        return Some(ladder);
+    }
+    while ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
+        if !step(bench, &mut ladder, is_asked, tell) {
+            break;
+        }
+    }
+    drop_idle(bench, &mut ladder);
+    Some(ladder)
+}
+
+/// The deviance where nothing is wrong, and its variance.
+pub fn floor(score: &Score) -> (f64, f64) {
+    let sum = |of: fn(&(f64, f64)) -> f64| score.signals.iter().map(|signal| of(&signal.floor_cost)).sum();
+    (sum(|floor| floor.0), sum(|floor| floor.1))
+}
+
+/// One rung: whether it was worth it.
+fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> bool {
+    let below = ladder.best.clone();
+    let left = below.cost - ladder.floor.0;
+    if left < least_gain(1, 1) * below.inflation() {
+        return false;
+    }
+    let rivals = rung(bench, &below, left, is_asked, tell);
+    ladder.tried += rivals.len();
+    let Some(next) = choose(bench, &below, &rivals) else { return false };
+    let is_first = below.set.is_empty();
+    if is_first {
+        ladder.singles = rivals;
+    }
+    let is_worth_it = is_worth_having(bench, &below, &next, ladder);
+    if is_worth_it {
+        ladder.best = next;
+    }
+    is_worth_it
+}
+
+/// Every candidate beside the effects of `below`, those held as they are; the best first.
+pub fn rung(
+    bench: &Bench<'_>,
+    below: &Trial,
+    excess: f64,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    tell: &Tell<'_>,
+) -> Vec<Trial> {
+    let Some(prediction) = bench.predict(&below.set, &below.at) else { return Vec::new() };
+    let score = bench.subject.score(&prediction);
+    let mut library = candidates(bench, &prediction, &score, is_asked);
+    library.retain(|candidate| !below.set.iter().any(|there| there.is_same(candidate)));
+    let tried = AtomicUsize::new(0);
+    let best = Mutex::new((0.0, "none yet".to_owned()));
+    let fitted = library.par_iter().filter_map(|candidate| {
+        let trial = beside(bench, below, candidate, excess);
+        let explains = trial.as_ref().map_or(0.0, |trial| (below.cost - trial.cost) / excess);
+        let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
+        if explains > best.0 {
+            *best = (explains, candidate.name());
+        }
+        tell(&Progress {
+            tried: tried.fetch_add(1, Ordering::Relaxed) + 1,
+            of: library.len(),
+            device: bench.subject.name.clone(),
+            best: best.1.clone(),
+            explains: best.0,
+        });
+        trial
+    });
+    let mut trials: Vec<Trial> = fitted.collect();
+    trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    // Of several choices of one effect the best is the effect.
+    let mut distinct: Vec<Trial> = Vec::with_capacity(trials.len());
+    for trial in trials {
+        let is_there = |other: &Trial| other.set.last().zip(trial.set.last()).is_some_and(|(a, b)| a.is_same(b));
+        if !distinct.iter().any(is_there) {
+            distinct.push(trial);
+        }
+    }
+    distinct
+}
+
+fn candidates(
+    bench: &Bench<'_>,
+    prediction: &Prediction,
+    score: &Score,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Vec<Candidate> {
+    library::candidates(bench.subject, prediction, score, &|id| is_asked(id))
+}
+
+/// The candidate beside the effects of `below`, with only its own parameters free; closely where it promises something.
+fn beside(bench: &Bench<'_>, below: &Trial, candidate: &Candidate, excess: f64) -> Option<Trial> {
+    let set: Vec<Candidate> = below.set.iter().chain([candidate]).cloned().collect();
+    let own: usize = below.parameters();
+    let (held, nuisances) = below.at.split_at(own);
+    // A candidate that sets a nuisance takes its place.
+    let nuisances = if nuisances.len() == bench.nominal(&set).len() { nuisances.to_vec() } else { bench.nominal(&set) };
+    let all = |at: &[f64]| [held, at, &nuisances].concat();
+    let residuals = |at: &[f64]| bench.residuals(&set, &all(at));
+    let ranges: Vec<_> = candidate.ranges().collect();
+    let mut scored = score_starts(&residuals, candidate, below.cost);
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (cost, first) = scored.first()?;
+    let mut best = (*cost, (*first).clone());
+    if !ranges.is_empty() {
+        let glance = least_squares(&residuals, first, &ranges, 4 + 4 * ranges.len() as u32)?;
+        best = (glance.cost, glance.at);
+        if below.cost - best.0 > PROMISING * excess {
+            let starts: Vec<Vec<f64>> = std::iter::once(best.1.clone())
+                .chain(scored.iter().skip(1).take(2).map(|(_, start)| (*start).clone()))
+                .collect();
+            let effort = Effort { starts: 3, budget: 20 + 12 * ranges.len() as u32 };
+            let found = search(&residuals, &starts, &ranges, effort)?;
+            best = (found.cost, found.at);
+        }
+    }
+    bench.trial(&set, all(&best.1))
+}
+
+/// What each start costs. The starts of a single parameter go from small effects to large ones: once some in a row cost far more
+/// than no effect at all, the larger ones are not tried.
+fn score_starts<'c>(residuals: &Residuals<'_>, candidate: &'c Candidate, without: f64) -> Vec<(f64, &'c Vec<f64>)> {
+    const HOPELESS: f64 = 2.0;
+    const IN_A_ROW: usize = 3;
+    let mut scored = Vec::with_capacity(candidate.starts.len());
+    let mut hopeless = 0;
+    for start in &candidate.starts {
+        let Some(found) = residuals(start) else { continue };
+        let cost = sum_of_squares(&found);
+        scored.push((cost, start));
+        hopeless = if cost > HOPELESS * without { hopeless + 1 } else { 0 };
+        if candidate.free.len() == 1 && hopeless == IN_A_ROW {
+            break;
+        }
+    }
+    scored
+}
+
+/// The best of the rung, refitted with everything free: what costs least, where a further parameter and a nominal parameter that
+/// is wrong have to be worth it.
+fn choose(bench: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Option<Trial> {
+    let inflation = rivals.first()?.inflation();
+    let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * inflation;
+    let mut order: Vec<&Trial> = rivals.iter().collect();
+    order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
+    let refit = |trial: &&Trial| match below.set.is_empty() && bench.nuisances.is_empty() {
+        true => Some((*trial).clone()),
+        false => bench
+            .fit(&trial.set, std::slice::from_ref(&trial.at), Effort { starts: 1, budget: 60 })
+            .or(Some((*trial).clone())),
+    };
+    let mut refitted: Vec<Trial> = order.iter().take(3).filter_map(refit).collect();
+    refitted.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
+    refitted.into_iter().next()
+}
+
+/// What a candidate beside `below` others has to gain over one with one parameter that is an effect.
+pub fn handicap(trial: &Trial, below: usize) -> f64 {
+    let new = trial.set.iter().skip(below);
+    let further = new.clone().map(|candidate| candidate.free.len().max(1)).sum::<usize>().saturating_sub(1) as f64;
+    let is_error = new.into_iter().any(Candidate::is_parameter_error);
+    18.0 * further + if is_error { 18.0 } else { 0.0 }
+}
+
+/// Whether `next` gains over `below` more than chance, a share worth having, and moves anything at all.
+fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+    let gain = below.cost - next.cost;
+    let further = next.parameters() - below.parameters();
+    if gain < least_gain(further, ladder.tried) * next.inflation() || share(below, next, ladder)[0] < LEAST_SHARE {
+        return false;
+    }
+    let predictions = bench.predict(&below.set, &below.at).zip(bench.predict(&next.set, &next.at));
+    predictions.is_some_and(|(below, next)| bench.differ(&below, &next))
+}
+
+/// Which share of the bare model's excess `next` takes away beyond `below`: its interval by block bootstrap.
+pub fn share(below: &Trial, next: &Trial, ladder: &Ladder) -> [f64; 2] {
+    let draws = Draws::new(below.blocks.len(), DRAWS, 1);
+    let floor = ladder.floor.0;
+    let shares = draws.each(&[&ladder.bare.blocks, &below.blocks, &next.blocks], |sums| {
+        (sums[1] - sums[2]) / (sums[0] - floor).max(1.0)
+    });
+    [quantile(&shares, 0.025), quantile(&shares, 0.975)]
+}
+
+/// Takes out what is no longer worth having once the others stand beside it.
+fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) {
+    let mut place = 0;
+    while ladder.best.set.len() > 1 && place < ladder.best.set.len() && !bench.is_stopped() {
+        let best = &ladder.best;
+        let mut set = best.set.clone();
+        let dropped = set.remove(place);
+        let before: usize = best.set[..place].iter().map(|candidate| candidate.free.len()).sum();
+        let mut at = best.at[..best.parameters()].to_vec();
+        at.drain(before..before + dropped.free.len());
+        at.extend(bench.nominal(&set));
+        let without = bench.fit(&set, &[at], Effort { starts: 1, budget: 60 });
+        match without {
+            Some(without) if !is_worth_having(bench, &without, best, ladder) => ladder.best = without,
+            _ => place += 1,
+        }
+    }
+}

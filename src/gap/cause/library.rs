@@ -1,0 +1,204 @@
+//! Every candidate that fits a device: each effect of the registry at each of its places, of each component.
+
+use std::collections::BTreeMap;
+
+use super::candidate::{Candidate, Free};
+use super::scales::Scales;
+use super::starts::{self, Clues};
+use crate::effect::{self, Build, EFFECTS, EffectDescriptor};
+use crate::gap::fit::Range;
+use crate::gap::{Prediction, Score, Subject};
+use crate::plant::{EffectPlace, ParameterValue};
+use crate::prototype::kind::{ParameterType, PortType};
+use crate::signal_map::Direction;
+
+/// Effects that no single waveform shows: what they draw differs from run to run. They are in the floor of a trace.
+const RANDOM: &[&str] = &["noise", "quantisation", "sampling-jitter", "lost-messages", "intermittent", "bounce"];
+
+/// Parameters of devices that no report depends on, or that another candidate stands for.
+const UNSEEN: &[&str] = &["beamHeight", "width", "reach", "encoderBits"];
+
+/// What could cause a gap of `subject`: `is_asked` says of an effect's id whether it is looked for. `nominal` is what the
+/// model predicts, `score` what that costs.
+pub fn candidates(
+    subject: &Subject,
+    nominal: &Prediction,
+    score: &Score,
+    is_asked: &dyn Fn(&str) -> bool,
+) -> Vec<Candidate> {
+    let library = Library { subject, nominal, score, axes: axes(subject) };
+    let asked = EFFECTS.iter().filter(|effect| is_asked(effect.id) && !RANDOM.contains(&effect.id));
+    let all = asked.flat_map(|effect| match effect.build {
+        Build::Swap => library.swaps(effect),
+        Build::Parameters if effect.id == "parameter-error" => library.parameter_errors(effect),
+        _ => library.at_places(effect),
+    });
+    all.filter(|candidate| library.fits(candidate)).collect()
+}
+
+struct Library<'a> {
+    subject: &'a Subject,
+    nominal: &'a Prediction,
+    score: &'a Score,
+    /// The names of its axes where it has several, each with a drive.
+    axes: Vec<&'static str>,
+}
+
+/// A robot's axes, by the names of their targets.
+fn axes(subject: &Subject) -> Vec<&'static str> {
+    let targets = subject.kind.ports.iter().filter_map(|port| port.name.strip_suffix("Target"));
+    if subject.kind.name.ends_with("Robot") { targets.collect() } else { Vec::new() }
+}
+
+impl Library<'_> {
+    /// The axis that a component belongs to.
+    fn axis(&self, component: Option<&str>) -> Option<&'static str> {
+        let name = component?;
+        self.axes.iter().copied().find(|axis| {
+            name == *axis || name.strip_suffix("Target") == Some(axis) || name.strip_prefix("actualPos") == Some(axis)
+        })
+    }
+
+    /// Whether a signal is further off than chance has it.
+    fn is_off(&self, property: &str) -> bool {
+        self.score.signals.iter().any(|signal| {
+            let (mean, variance) = signal.floor_cost;
+            self.subject.signals[signal.signal].property == property
+                && signal.cost - mean > 18.0_f64.max(5.0 * variance.sqrt())
+        })
+    }
+
+    /// Whether what acts on an axis could matter: the axis's own report is off, or another than an axis's is.
+    fn matters(&self, component: Option<&str>) -> bool {
+        let Some(axis) = self.axis(component) else { return true };
+        let reports = self.subject.signals.iter().filter(|info| self.axis(Some(&info.property)) == Some(axis));
+        let is_seen = reports.clone().count() > 0;
+        !is_seen || reports.clone().any(|info| self.is_off(&info.property))
+    }
+
+    fn fits(&self, candidate: &Candidate) -> bool {
+        let spec = candidate.spec(&candidate.starts[0]);
+        effect::build(self.subject.kind, &self.subject.parameters, &self.subject.name, &[spec], 0).is_ok()
+    }
+
+    fn at_places(&self, effect: &'static EffectDescriptor) -> Vec<Candidate> {
+        let places = effect.places.iter();
+        places
+            .flat_map(|&place| self.components(place).into_iter().map(move |component| (place, component)))
+            .flat_map(|(place, component)| self.variants(effect, place, component))
+            .collect()
+    }
+
+    /// What an effect at a place may act on.
+    fn components(&self, place: EffectPlace) -> Vec<Option<&'static str>> {
+        let way = match place {
+            EffectPlace::CommandLink => Direction::Command,
+            EffectPlace::Sensor | EffectPlace::ReportLink => Direction::Report,
+            _ if self.axes.is_empty() => return vec![None],
+            _ => return self.axes.iter().copied().filter(|axis| self.matters(Some(axis))).map(Some).collect(),
+        };
+        let ports = self.subject.kind.ports.iter().filter(|port| port.direction == way);
+        let present: Vec<&'static str> = ports
+            .map(|port| port.name)
+            .filter(|name| match way {
+                Direction::Command => self.is_commanded(name) && self.matters(Some(name)),
+                Direction::Report => self.is_off(name),
+            })
+            .collect();
+        let all = (present.len() > 1 && place != EffectPlace::Sensor).then_some(None);
+        all.into_iter().chain(present.iter().copied().map(Some)).collect()
+    }
+
+    /// Whether a command port was ever written to.
+    fn is_commanded(&self, name: &str) -> bool {
+        let port = self.subject.kind.port(name);
+        self.subject.runs.iter().any(|run| run.commands.iter().any(|(to, _)| Some(*to) == port))
+    }
+
+    /// One candidate for each combination of what can be chosen, with all else free.
+    fn variants(
+        &self,
+        effect: &'static EffectDescriptor,
+        place: EffectPlace,
+        component: Option<&'static str>,
+    ) -> Vec<Candidate> {
+        let scales = Scales::of(self.subject, self.nominal, self.axis(component));
+        let clues = Clues { subject: self.subject, nominal: self.nominal, score: self.score, scales, component };
+        let base = Candidate {
+            effect,
+            place,
+            component: component.map(str::to_owned),
+            texts: BTreeMap::new(),
+            fixed: Vec::new(),
+            free: Vec::new(),
+            starts: vec![Vec::new()],
+        };
+        starts::of(base, &clues)
+    }
+
+    fn swaps(&self, effect: &'static EffectDescriptor) -> Vec<Candidate> {
+        let mut swaps = Vec::new();
+        for (i, first) in self.subject.kind.ports.iter().enumerate() {
+            for second in &self.subject.kind.ports[i + 1..] {
+                let is_pair =
+                    first.direction == second.direction && first.ty == second.ty && first.range == second.range;
+                let (place, is_off) = match first.direction {
+                    Direction::Command => (EffectPlace::CommandLink, true),
+                    Direction::Report => (EffectPlace::ReportLink, self.is_off(first.name) || self.is_off(second.name)),
+                };
+                if is_pair && is_off && (first.ty == PortType::Boolean || first.quantities == second.quantities) {
+                    swaps.push(Candidate {
+                        effect,
+                        place,
+                        component: Some(first.name.to_owned()),
+                        texts: BTreeMap::from([("with".to_owned(), second.name.to_owned())]),
+                        fixed: Vec::new(),
+                        free: Vec::new(),
+                        starts: vec![Vec::new()],
+                    });
+                }
+            }
+        }
+        swaps
+    }
+
+    fn parameter_errors(&self, effect: &'static EffectDescriptor) -> Vec<Candidate> {
+        let declared = self.subject.kind.parameters.iter().filter(|parameter| !UNSEEN.contains(&parameter.name));
+        declared
+            .filter_map(|parameter| {
+                let ParameterType::Number { min, max } = parameter.ty else { return None };
+                let ParameterValue::Number(nominal) = self.subject.parameters.0.get(parameter.name)?.value else {
+                    return None;
+                };
+                let is_of_axis = |axis: &&&str| parameter.name.ends_with(**axis);
+                let axis = self.axes.iter().find(is_of_axis).copied();
+                if !self.matters(axis) {
+                    return None;
+                }
+                let size = if nominal == 0.0 { 0.01 } else { nominal.abs() };
+                let range = Range {
+                    least: min.max(nominal - 20.0 * size),
+                    greatest: max.min(nominal + 20.0 * size),
+                    scale: 0.1 * size,
+                };
+                let shares: &[f64] = if nominal == 0.0 { &[1.0, 10.0] } else { &[-0.3, -0.01, 0.01, 0.3, 1.0] };
+                let starts: Vec<Vec<f64>> = shares
+                    .iter()
+                    .map(|share| nominal + share * size)
+                    .filter(|value| (range.least..=range.greatest).contains(value))
+                    .map(|value| vec![value])
+                    .collect();
+                let is_time = parameter.quantities.contains(&crate::value::Quantity::Time);
+                (!starts.is_empty()).then(|| Candidate {
+                    effect,
+                    place: EffectPlace::Actuator,
+                    component: Some(parameter.name.to_owned()),
+                    texts: BTreeMap::new(),
+                    fixed: Vec::new(),
+                    free: vec![Free { name: "value", range, is_time }],
+                    starts,
+                })
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,21 @@
+//! Which effect: candidates from the library, a ladder of them, their classes, intervals and what they leave.
+
+mod bench;
+mod candidate;
+mod class;
+mod intervals;
+mod ladder;
+mod library;
+mod nuisance;
+mod remainder;
+mod scales;
+mod scan;
+mod starts;
+
+pub use bench::{Bench, Trial};
+pub use candidate::{Candidate, Free};
+pub use class::{Alternative, Answer, answers, plainness};
+pub use intervals::{Bounds, intervals};
+pub use ladder::{Ladder, Progress, Tell, climb, floor, share};
+pub use nuisance::{Nuisance, nuisances};
+pub use remainder::{Remainder, misfit, remainder};

@@ -1,0 +1,45 @@
+//! Nominal parameters that may be off within their tolerances: fitted with every candidate, so that no effect is found where a
+//! drum is a per cent too large, and none hides in one.
+
+use crate::gap::fit::{Range, sum_of_squares};
+use crate::gap::{Overrides, Prediction, Subject};
+use crate::plant::ParameterValue;
+
+/// A nominal parameter with a tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nuisance {
+    pub name: &'static str,
+    pub nominal: f64,
+    /// A tolerance is taken for two standard deviations.
+    pub deviation: f64,
+}
+
+impl Nuisance {
+    /// How many standard deviations a value is off.
+    pub fn strain(&self, value: f64) -> f64 {
+        (value - self.nominal) / self.deviation
+    }
+
+    /// Where it is looked for: four standard deviations either way.
+    pub fn range(&self) -> Range {
+        let reach = 4.0 * self.deviation;
+        Range { least: self.nominal - reach, greatest: self.nominal + reach, scale: self.deviation }
+    }
+}
+
+/// The parameters of `subject` with a tolerance that its reports depend on: those that move the deviance by more than chance
+/// would within their tolerance.
+pub fn nuisances(subject: &Subject, nominal: &Prediction) -> Vec<Nuisance> {
+    let declared = subject.parameters.0.iter().filter_map(|(name, parameter)| match parameter.value {
+        ParameterValue::Number(value) if parameter.tolerance > 0.0 && value != 0.0 => {
+            Some(Nuisance { name, nominal: value, deviation: 0.5 * parameter.tolerance * value.abs() })
+        }
+        _ => None,
+    });
+    let is_seen = |nuisance: &Nuisance| {
+        let off = Overrides::one(nuisance.name, nuisance.nominal + nuisance.deviation);
+        let moved = subject.predict(&[], &off).map(|moved| sum_of_squares(&subject.apart(nominal, &moved)));
+        moved.is_ok_and(|moved| moved > 1.0)
+    };
+    declared.filter(is_seen).collect()
+}

@@ -1,0 +1,262 @@
+//! What is left after the best answer: whether it still depends on something, and on what.
+
+use super::bench::{Bench, Trial};
+use super::ladder::{DRAWS, Ladder};
+use crate::gap::fit::Range;
+use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
+use crate::gap::{Predicted, Prediction, Score};
+use crate::prototype::kind::PortDescriptor;
+use crate::value::Quantity;
+
+/// From which share of a residual's variance on it depends on a quantity, and what the lower bound of it must be.
+const DEPENDS: f64 = 0.2;
+const SURELY: f64 = 0.1;
+/// Bins of equally many samples.
+const BINS: usize = 13;
+/// Into how many spans of time a parameter is looked at for whether it changes.
+const SPANS: usize = 9;
+/// By which share a parameter must change over the spans to be no constant, and how monotone that must be.
+const CHANGES: f64 = 0.25;
+const MONOTONE: f64 = 0.85;
+
+/// What is left.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remainder {
+    /// Of the gap's squares above the floor.
+    pub share: f64,
+    /// What the residual, or the answer's main parameter, still depends on, the strongest first.
+    pub depends_on: Vec<String>,
+    /// Whether it is more than noise and a few per cent of the gap.
+    pub is_large: bool,
+    /// Whether it is large and depends on something.
+    pub is_significant: bool,
+    /// In which share of the draws of blocks it is.
+    pub certainty: f64,
+}
+
+/// The squares of all differences above the floor, each signal in its own floor's units; of an edge its cost above the floor's.
+pub fn misfit(score: &Score) -> f64 {
+    let of = |signal: &crate::gap::SignalScore| match &signal.level {
+        Some(level) => level.at.len() as f64 * ((signal.rms / signal.floor.max(1e-12)).powi(2) - 1.0).max(0.0),
+        None => (signal.cost - signal.floor_cost.0).max(0.0),
+    };
+    score.signals.iter().map(of).sum()
+}
+
+/// What the best answer of a ladder leaves.
+pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
+    let best = &ladder.best;
+    let prediction = bench.predict(&best.set, &best.at)?;
+    let score = bench.subject.score(&prediction);
+    let bare = bench.subject.score(&bench.predict(&[], &ladder.bare.at)?);
+    let share = (misfit(&score) / misfit(&bare).max(1e-9)).min(1.0);
+    let left = best.cost - ladder.floor.0;
+    let is_large = left > 18.0 * best.inflation() && left > 5.0 * ladder.floor.1.sqrt() && share > 0.05;
+    let mut depends = dependences(bench, &prediction, &score);
+    let is_steady = best.set.is_empty()
+        || trend(bench, best).is_none_or(|(spread, monotone)| spread < CHANGES || monotone.abs() < MONOTONE);
+    if !is_steady {
+        depends.insert(0, ("time".to_owned(), 1.0, 1.0));
+    }
+    let certainty = if is_large { depends.iter().map(|(_, _, certainty)| *certainty).fold(0.0, f64::max) } else { 0.0 };
+    let mut names: Vec<String> = Vec::new();
+    for (name, ..) in &depends {
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    Some(Remainder { share, is_large, is_significant: is_large && !names.is_empty(), depends_on: names, certainty })
+}
+
+/// A quantity that a residual may depend on, sample by sample.
+struct Regressor {
+    name: &'static str,
+    values: Vec<f64>,
+}
+
+/// What the residuals of all levels depend on: the name, the share explained, and in how many draws that is enough.
+fn dependences(bench: &Bench<'_>, prediction: &Prediction, score: &Score) -> Vec<(String, f64, f64)> {
+    let mut found: Vec<(String, f64, f64)> = Vec::new();
+    for signal in &score.signals {
+        let Some(level) = &signal.level else { continue };
+        // What lies at its floor holds nothing that could depend on anything.
+        if level.at.len() < 10 * BINS || signal.rms < 1.2 * signal.floor {
+            continue;
+        }
+        let Some(regressors) = regressors(bench, prediction, signal.run, signal.signal) else { continue };
+        let signs: Vec<f64> =
+            regressors.iter().find(|r| r.name == "speed sign").map_or_else(Vec::new, |r| r.values.clone());
+        let signed: Vec<f64> = level.difference.iter().zip(&signs).map(|(e, sign)| e * sign).collect();
+        for residual in [level.difference.as_slice(), signed.as_slice()] {
+            for regressor in &regressors {
+                let moving: Vec<usize> = (0..residual.len().min(regressor.values.len()))
+                    .filter(|k| signs.get(*k).is_some_and(|sign| *sign != 0.0))
+                    .collect();
+                let pick = |of: &[f64]| moving.iter().map(|k| of[*k]).collect::<Vec<f64>>();
+                let (values, by) = (pick(residual), pick(&regressor.values));
+                if values.len() < 10 * BINS {
+                    continue;
+                }
+                let counts = effective_number(&values) / values.len() as f64;
+                let share = binned_share(&values, &by, BINS, counts);
+                if share > DEPENDS {
+                    let sure = certainty(&values, &by);
+                    if sure > 0.95 {
+                        found.push((regressor.name.to_owned(), share, sure));
+                    }
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
+}
+
+/// In how many draws of blocks the share explained stays above what is sure.
+fn certainty(values: &[f64], by: &[f64]) -> f64 {
+    let block = values.len().div_ceil(24).max(1);
+    let blocks = values.len() / block;
+    let draws = Draws::new(blocks.max(1), DRAWS / 8, 3);
+    let shares = draws.picks(|order| {
+        let of = |source: &[f64]| {
+            order.iter().flat_map(|b| source[b * block..(b + 1) * block].iter().copied()).collect::<Vec<_>>()
+        };
+        binned_share(&of(values), &of(by), BINS, 1.0)
+    });
+    shares.iter().filter(|share| **share > SURELY).count() as f64 / shares.len().max(1) as f64
+}
+
+/// Time, way and motion of the device in a run, at the instants of a signal.
+fn regressors(bench: &Bench<'_>, prediction: &Prediction, run: usize, signal: usize) -> Option<Vec<Regressor>> {
+    let subject = bench.subject;
+    let track = subject.runs[run].tracks[signal].as_ref()?;
+    let count = track.values.len();
+    let instants = &track.grid.instants[track.first..track.first + count];
+    let port = |at: usize| &subject.kind.ports[subject.signals[at].port];
+    let own = port(signal);
+    // Of a robot's axis only its own report says anything.
+    let is_alone = subject.signals.iter().filter(|info| is_a(&subject.kind.ports[info.port], POSITIONS)).count() > 1;
+    let level = |wanted: [Quantity; 2]| {
+        let of = (0..subject.signals.len()).find(|at| match is_alone {
+            true => *at == signal && is_a(own, wanted),
+            false => is_a(port(*at), wanted) && !subject.signals[*at].is_count,
+        })?;
+        match &prediction.runs[run][of] {
+            Predicted::Level(values) if values.len() == count => Some(values.clone()),
+            _ => None,
+        }
+    };
+    let position = level(POSITIONS);
+    let speed = level([Quantity::Velocity, Quantity::AngularVelocity])
+        .or_else(|| position.as_ref().map(|position| padded(super::scales::slopes(instants, position))))?;
+    let acceleration = padded(super::scales::slopes(instants, &speed));
+    let force = level([Quantity::Force, Quantity::Torque]);
+    let fast = 1e-3 * super::scales::largest(&speed);
+    let sign = speed.iter().map(|v| if v.abs() <= fast { 0.0 } else { v.signum() }).collect();
+    let mut way = 0.0;
+    let distance: Vec<f64> = speed
+        .iter()
+        .zip(instants.windows(2).map(|pair| pair[1] - pair[0]).chain([0.0]))
+        .map(|(v, span)| {
+            way += v.abs() * span;
+            way
+        })
+        .collect();
+    let magnitude = |values: &[f64]| values.iter().map(|value| value.abs()).collect::<Vec<f64>>();
+    let mut regressors = vec![
+        Regressor { name: "time", values: instants.to_vec() },
+        Regressor { name: "distance travelled", values: distance },
+        Regressor { name: "speed", values: magnitude(&speed) },
+        Regressor { name: "speed sign", values: sign },
+        Regressor { name: "acceleration", values: magnitude(&acceleration) },
+    ];
+    regressors.extend(force.map(|values| Regressor { name: "load", values }));
+    regressors.extend(position.map(|values| Regressor { name: "position", values }));
+    regressors.retain(|regressor| regressor.values.len() == count);
+    Some(regressors)
+}
+
+const POSITIONS: [Quantity; 2] = [Quantity::Length, Quantity::Angle];
+
+fn is_a(port: &PortDescriptor, wanted: [Quantity; 2]) -> bool {
+    port.quantities.iter().any(|quantity| wanted.contains(quantity))
+}
+
+/// One more at the end, as the last.
+fn padded(mut values: Vec<f64>) -> Vec<f64> {
+    values.push(values.last().copied().unwrap_or(0.0));
+    values
+}
+
+/// How the answer's main parameter changes over the spans of the recordings: the spread of its values as a share of the value,
+/// and how monotone they are in time. `None` where it has none, or too few spans say anything.
+fn trend(bench: &Bench<'_>, best: &Trial) -> Option<(f64, f64)> {
+    let value = *best.at.first().filter(|_| best.parameters() > 0)?;
+    let Range { least, greatest, .. } = best.ranges[0];
+    let shares = [0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.75, 2.0];
+    let grid: Vec<f64> =
+        shares.iter().map(|share| share * value).filter(|at| (least..=greatest).contains(at)).collect();
+    let costs: Vec<Vec<f64>> = grid
+        .iter()
+        .map(|value| {
+            let mut at = best.at.clone();
+            at[0] = *value;
+            Some(spans(bench, &bench.subject.score(&bench.predict(&best.set, &at)?)))
+        })
+        .collect::<Option<_>>()?;
+    let inflation = best.inflation();
+    let (mut times, mut values) = (Vec::new(), Vec::new());
+    for span in 0..costs.first()?.len() {
+        let along: Vec<f64> = costs.iter().map(|costs| costs[span] / inflation).collect();
+        let least = (0..along.len()).min_by(|a, b| along[*a].total_cmp(&along[*b]))?;
+        let most = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // A span that does not say anything of the parameter is left out.
+        if most - along[least] > 9.0 {
+            times.push(span as f64);
+            values.push(vertex(&grid, &along, least));
+        }
+    }
+    if values.len() < 6 {
+        return None;
+    }
+    let spread = (quantile(&values, 0.9) - quantile(&values, 0.1)) / value.abs();
+    Some((spread, rank_correlation(&values, &times)))
+}
+
+/// Where a parabola through the least of the costs and its neighbours is least.
+fn vertex(grid: &[f64], costs: &[f64], least: usize) -> f64 {
+    if least == 0 || least + 1 == grid.len() {
+        return grid[least];
+    }
+    let (a, b, c) = (least - 1, least, least + 1);
+    let left = (grid[b] - grid[a]) * (costs[b] - costs[c]);
+    let right = (grid[b] - grid[c]) * (costs[b] - costs[a]);
+    let below = left - right;
+    if below.abs() < 1e-12 {
+        return grid[b];
+    }
+    grid[b] - 0.5 * ((grid[b] - grid[a]) * left - (grid[b] - grid[c]) * right) / below
+}
+
+/// The deviance of each span of each run.
+fn spans(bench: &Bench<'_>, score: &Score) -> Vec<f64> {
+    let mut spans = vec![0.0; SPANS * bench.subject.runs.len()];
+    for (run, at, cost) in score.costs() {
+        let inside = (at / bench.subject.runs[run].ends.max(1e-9) * SPANS as f64) as usize;
+        spans[run * SPANS + inside.min(SPANS - 1)] += cost;
+    }
+    spans
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_vertex_of_a_parabola_is_found() {
+        let grid = [1.0, 2.0, 4.0, 5.0];
+        let costs: Vec<f64> = grid.iter().map(|x| (x - 3.1_f64).powi(2)).collect();
+        assert!((vertex(&grid, &costs, 2) - 3.1).abs() < 1e-9);
+        assert_eq!(vertex(&grid, &costs, 0), 1.0);
+    }
+}

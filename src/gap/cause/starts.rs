@@ -1,0 +1,231 @@
+//! Where the search for an effect's parameters begins.
+//!
+//! Never at the nominal value, where the effect does nothing and the deviance has no slope: a limit begins below what the
+//! device does, a time above 0. What the recording itself shows (how late the edges are, how far a level lies off) is a start as
+//! well.
+
+use super::candidate::{Candidate, Free};
+use super::scales::Scales;
+use super::scan;
+use crate::effect::EffectParameter;
+use crate::gap::fit::Range;
+use crate::gap::statistics::quantile;
+use crate::gap::{Prediction, Score, Subject};
+use crate::prototype::kind::PortType;
+use crate::value::Quantity;
+
+/// What is known before the search.
+#[derive(Clone, Copy)]
+pub struct Clues<'a> {
+    pub subject: &'a Subject,
+    pub nominal: &'a Prediction,
+    pub score: &'a Score,
+    pub scales: Scales,
+    pub component: Option<&'static str>,
+}
+
+/// From which value on a limit is taken to limit nothing.
+const UNLIMITED: f64 = 1e8;
+/// The longest time that is searched for, s.
+const LONGEST_S: f64 = 3.0;
+/// The most starts of one candidate.
+const MOST: usize = 48;
+
+/// Ratios of two units that are mistaken for one another.
+const UNITS: &[f64] = &[
+    1000.0,
+    1e-3,
+    100.0,
+    0.01,
+    10.0,
+    0.1,
+    60.0,
+    1.0 / 60.0,
+    57.295_779_513_082_32,
+    0.017_453_292_519_943_295,
+    9.549_296_585_513_72,
+    0.104_719_755_119_659_77,
+    3.6,
+    1.0 / 3.6,
+];
+
+/// The candidate with its parameters: one for each choice among options, the others free.
+pub fn of(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
+    match base.effect.id {
+        "wrong-unit" => return fixed(base, "factor", UNITS),
+        "stuck" => return stuck(base, clues),
+        "once-per-revolution-error" | "position-dependent-friction" => return scanned(base, clues),
+        _ => {}
+    }
+    let mut candidates = vec![base];
+    for parameter in candidates[0].effect.parameters {
+        if parameter.options.is_empty() {
+            for candidate in &mut candidates {
+                add(candidate, parameter, clues);
+            }
+        } else {
+            candidates =
+                candidates.into_iter().flat_map(|base| fixed(base, parameter.name, parameter.options)).collect();
+        }
+    }
+    candidates
+}
+
+fn fixed(base: Candidate, name: &'static str, values: &[f64]) -> Vec<Candidate> {
+    let with = |value: &f64| {
+        let mut candidate = base.clone();
+        candidate.fixed.push((name, *value));
+        candidate
+    };
+    values.iter().map(with).collect()
+}
+
+/// A signal that stands still: where the recording shows it, or, of a command, at 0.
+fn stuck(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
+    let signals = clues.subject.signals.iter().enumerate();
+    let report =
+        signals.filter(|(_, info)| Some(info.property.as_str()) == clues.component).map(|(signal, _)| signal).next();
+    let shown = report.and_then(|signal| {
+        let track = clues.subject.runs.iter().find_map(|run| run.tracks[signal].as_ref())?;
+        // What still moves is not stuck.
+        let last = track.values.last().copied();
+        let is_still = last
+            .is_some_and(|last| track.values.iter().filter(|value| **value == last).count() * 2 > track.values.len());
+        match last {
+            Some(last) => is_still.then_some(last),
+            None => track.edges.is_empty().then_some(track.initial),
+        }
+    });
+    match (report, shown) {
+        (Some(_), None) => Vec::new(),
+        (_, value) => fixed(Candidate { fixed: vec![("from", 0.0)], ..base }, "value", &[value.unwrap_or(0.0)]),
+    }
+}
+
+/// Effects that repeat along the way: the scan says with which period.
+fn scanned(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
+    let is_friction = base.effect.id == "position-dependent-friction";
+    let found = scan::periods(clues, is_friction, 3);
+    if found.is_empty() {
+        return Vec::new();
+    }
+    let scale = if is_friction { clues.scales.effort } else { clues.scales.travel };
+    let period = clues.scales.travel;
+    let free = vec![
+        Free { name: "amplitude", range: Range { least: 0.0, greatest: scale, scale: 0.01 * scale }, is_time: false },
+        Free {
+            name: "period",
+            range: Range { least: 1e-5, greatest: 10.0 * period, scale: 1e-3 * period },
+            is_time: false,
+        },
+        Free { name: "phase", range: Range { least: -7.0, greatest: 7.0, scale: 0.3 }, is_time: false },
+    ];
+    let starts = found.iter().map(|wave| vec![wave.amplitude.clamp(1e-9, scale), wave.period, wave.phase]).collect();
+    vec![Candidate { free, starts, ..base }]
+}
+
+/// Adds a free parameter: every start so far with each of its own.
+fn add(candidate: &mut Candidate, parameter: &'static EffectParameter, clues: &Clues<'_>) {
+    let (range, values) = parameter_starts(candidate, parameter, clues);
+    let is_time = parameter.quantities.contains(&Quantity::Time);
+    candidate.free.push(Free { name: parameter.name, range, is_time });
+    let starts =
+        candidate.starts.iter().flat_map(|start| values.iter().map(|value| [start.as_slice(), &[*value]].concat()));
+    candidate.starts = starts.take(MOST).collect();
+}
+
+fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &Clues<'_>) -> (Range, Vec<f64>) {
+    let (least, greatest) = parameter.range;
+    let scale = parameter.quantities.iter().find_map(|quantity| clues.scales.of_quantity(*quantity));
+    let unit = scale.unwrap_or_else(|| signal_scale(clues));
+    let range = |least: f64, greatest: f64, scale: f64| Range { least, greatest, scale };
+    let times = |shares: &[f64], of: f64| shares.iter().map(|share| share * of).collect::<Vec<f64>>();
+    if parameter.quantities.contains(&Quantity::Time) {
+        let longest = greatest.min(LONGEST_S);
+        return (range(least, longest, 0.02), time_starts(clues).into_iter().filter(|time| *time < longest).collect());
+    }
+    if parameter.nominal >= UNLIMITED {
+        // Above what the device does it would do nothing.
+        let unit = if parameter.quantities.is_empty() { 1e4 * clues.scales.acceleration } else { unit };
+        let shares: &[f64] = match parameter.quantities.is_empty() {
+            true => &[0.1, 0.01, 1e-3, 3e-4],
+            false => &[0.999, 0.99, 0.9, 0.7, 0.4, 0.2, 0.1, 0.03, 0.01],
+        };
+        return (range(least, 1.02 * unit, 0.05 * unit), times(shares, unit));
+    }
+    match (candidate.effect.id, parameter.name) {
+        ("second-order-lag", "natural_frequency") => (range(least, 1e5, 10.0), vec![10.0, 50.0, 300.0, 2000.0]),
+        ("second-order-lag", "damping") => (range(0.05, 20.0, 0.2), vec![0.3, 1.0, 2.0]),
+        ("stribeck-friction", "velocity") => {
+            let most = clues.scales.speed;
+            (range(1e-3, most.max(2e-3), 0.02 * most), times(&[0.003, 0.03, 0.2], most))
+        }
+        ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
+        ("clock-drift", _) => (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),
+        ("drift", _) => (range(-unit, unit, 1e-3 * unit), times(&[1e-4, -1e-4, 1e-2, -1e-2], unit)),
+        ("offset", _) => (range(least, greatest, 0.01 * unit), vec![middle_difference(clues)]),
+        _ if parameter.nominal == 1.0 => {
+            (range(least, greatest, 0.02), vec![0.999, 1.001, 0.99, 1.01, 0.9, 1.1, 0.6, 1.6])
+        }
+        _ if scale.is_none() && parameter.quantities.contains(&Quantity::One) && greatest <= 10.0 => {
+            let shares: &[f64] =
+                if least < 0.0 { &[5e-4, -5e-4, 0.02, -0.02, 0.2, -0.2] } else { &[5e-4, 0.01, 0.05, 0.2] };
+            (range(least, greatest, 0.02), shares.to_vec())
+        }
+        _ => {
+            let shares: &[f64] = match least < 0.0 {
+                true => &[0.003, -0.003, 0.03, -0.03, 0.3, -0.3],
+                false => &[3e-4, 0.003, 0.02, 0.1, 0.4],
+            };
+            (range(least.max(-10.0 * unit), greatest.min(10.0 * unit), 0.01 * unit), times(shares, unit))
+        }
+    }
+}
+
+/// How large the signal of the component is.
+fn signal_scale(clues: &Clues<'_>) -> f64 {
+    let mut scale: f64 = 0.0;
+    for (signal, info) in clues.subject.signals.iter().enumerate() {
+        if clues.component.is_none_or(|component| component == info.property) {
+            let tracks = clues.subject.runs.iter().filter_map(|run| run.tracks[signal].as_ref());
+            scale = tracks
+                .map(|track| super::scales::span(&track.values))
+                .filter(|span| span.is_finite())
+                .fold(scale, f64::max);
+        }
+    }
+    if scale > 0.0 { scale } else { clues.scales.travel }
+}
+
+/// How far the component's level lies off in the middle.
+fn middle_difference(clues: &Clues<'_>) -> f64 {
+    let is_meant = |signal: usize| clues.component.is_none_or(|name| clues.subject.signals[signal].property == name);
+    let levels =
+        clues.score.signals.iter().filter(|signal| is_meant(signal.signal)).filter_map(|signal| signal.level.as_ref());
+    let differences: Vec<f64> = levels.flat_map(|level| level.difference.iter().copied()).collect();
+    if differences.is_empty() { 0.01 * clues.scales.travel } else { quantile(&differences, 0.5) }
+}
+
+/// Times from a tenth of a millisecond up, steps of half a cycle where edges are seen in cycles, and how late the edges are.
+fn time_starts(clues: &Clues<'_>) -> Vec<f64> {
+    let mut times = vec![3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.1, 0.17, 0.3, 0.6];
+    let has_levels =
+        clues.subject.signals.iter().any(|info| clues.subject.kind.ports[info.port].ty != PortType::Boolean);
+    if !has_levels {
+        let step = (0.5 * clues.scales.cycle).clamp(2e-3, 0.02);
+        times.extend((1..=30).map(|k| f64::from(k) * step));
+    }
+    let late: Vec<f64> = clues
+        .score
+        .signals
+        .iter()
+        .flat_map(|signal| &signal.edges)
+        .filter_map(|edge| Some(0.5 * (edge.recorded?.0 + edge.recorded?.1) - edge.predicted?))
+        .filter(|late| *late > 0.0)
+        .collect();
+    if !late.is_empty() {
+        times.extend([0.25, 0.5, 0.75, 0.9].map(|share| quantile(&late, share)));
+    }
+    times.sort_by(f64::total_cmp);
+    times
+}

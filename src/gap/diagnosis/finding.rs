@@ -1,0 +1,124 @@
+//! What is found of one device.
+
+use super::Options;
+use crate::gap::cause::{
+    Alternative, Answer, Bench, Bounds, Ladder, Remainder, answers, climb, intervals, misfit, nuisances, plainness,
+    remainder,
+};
+use crate::gap::{Prediction, Study, Subject};
+use crate::plant::EffectSpec;
+
+/// What a device's recordings say of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Conclusion {
+    /// The model explains them down to the noise, within its tolerances.
+    NoGap,
+    /// They hold a gap of which nothing in the library explains a part worth having.
+    Unknown,
+    /// An effect explains a part, and a remainder is left.
+    Partial,
+    /// The answer's effects explain them.
+    Explained,
+}
+
+/// What was found of one device.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// The device's place among the study's subjects.
+    pub subject: usize,
+    pub conclusion: Conclusion,
+    pub ladder: Ladder,
+    /// One for each effect of the best set.
+    pub answers: Vec<Answer>,
+    /// One for each free parameter of the best set, in its order.
+    pub bounds: Vec<Bounds>,
+    pub remainder: Remainder,
+    /// Its gap's squares above the floor, in units of the floor.
+    pub misfit: f64,
+}
+
+impl Finding {
+    /// The effects that it adds: none where nothing is explained.
+    pub fn specs(&self) -> Vec<EffectSpec> {
+        match self.conclusion {
+            Conclusion::Partial | Conclusion::Explained => self.ladder.best.specs(),
+            Conclusion::NoGap | Conclusion::Unknown => Vec::new(),
+        }
+    }
+}
+
+/// What of a gap must be explained for the answer to be more than unknown.
+const WORTH_HAVING: f64 = 0.3;
+
+/// Looks at one device. `None` where its reports are not in the recordings.
+pub(super) fn find(
+    place: usize,
+    subject: &Subject,
+    nominal: &Prediction,
+    study: &Study,
+    options: &Options<'_>,
+) -> Option<Finding> {
+    let bench = Bench { subject, nuisances: nuisances(subject, nominal), stop: options.is_stopped };
+    let ladder = climb(&bench, options.is_asked, options.tell)?;
+    let bare = subject.score(&bench.predict(&[], &ladder.bare.at)?);
+    let mut finding = Finding {
+        subject: place,
+        conclusion: Conclusion::NoGap,
+        answers: Vec::new(),
+        bounds: Vec::new(),
+        remainder: Remainder::default(),
+        misfit: misfit(&bare),
+        ladder,
+    };
+    let has_gap = is_significant(&finding.ladder);
+    if finding.ladder.best.set.is_empty() {
+        if has_gap {
+            finding.remainder = remainder(&bench, &finding.ladder)?;
+            finding.conclusion = Conclusion::Unknown;
+        }
+        return Some(finding);
+    }
+    finding.remainder = remainder(&bench, &finding.ladder)?;
+    finding.answers = answers(&bench, &finding.ladder, options.is_asked, options.tell);
+    name_the_plainest(&mut finding);
+    let tick = study.ticks.iter().copied().fold(0.0, f64::max);
+    finding.bounds = intervals(&bench, &finding.ladder.best, tick);
+    finding.conclusion = match () {
+        () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
+        () if finding.remainder.is_significant => Conclusion::Partial,
+        () => Conclusion::Explained,
+    };
+    Some(finding)
+}
+
+/// Whether the bare model costs more than noise and the estimate of it allow.
+fn is_significant(ladder: &Ladder) -> bool {
+    let (floor, variance) = ladder.floor;
+    ladder.excess() > 18.0 * ladder.bare.inflation().min(10.0) + 5.0 * variance.sqrt() + 0.1 * floor
+}
+
+/// Of the effects that give the same motion the plainest is named; a nominal parameter that gives it too is another name for it.
+fn name_the_plainest(finding: &mut Finding) {
+    for answer in &mut finding.answers {
+        let best = &mut finding.ladder.best;
+        let named = plainness(&best.set[answer.place]);
+        let same = answer.alternatives.iter().enumerate().filter(|(_, other)| other.is_same);
+        let plainest = same.min_by_key(|(_, other)| plainness(other.candidate()));
+        let Some(at) = plainest.filter(|(_, other)| plainness(other.candidate()) < named).map(|(at, _)| at) else {
+            continue;
+        };
+        // The set of an alternative has the candidate last; only of a set of one its place is the same.
+        if best.set.len() > 1 {
+            continue;
+        }
+        let trial = std::mem::replace(&mut answer.alternatives[at].trial, best.clone());
+        *best = trial;
+        if !best.set[0].is_parameter_error() {
+            let is_alias = |other: &Alternative| other.is_same && other.candidate().is_parameter_error();
+            let aliases: f64 =
+                answer.alternatives.iter().filter(|other| is_alias(other)).map(|other| other.weight).sum();
+            answer.alternatives.retain(|other| !is_alias(other));
+            answer.weight += aliases;
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The diagnosis: from a plant and its recordings to a verdict.
+//!
+//! Every device is looked at alone. What its recordings hold above their noise floor is explained by as few effects as are
+//! worth having ([`crate::gap::cause`]); verdict and parameters are frozen then, and the held-out recordings are opened once, to
+//! measure how far the gap shrinks.
+
+mod finding;
+mod held_out;
+mod regimes;
+mod shrink;
+mod verdict;
+mod words;
+
+pub use finding::{Conclusion, Finding};
+pub use held_out::{Split, kept_back};
+
+use super::cause::Tell;
+use super::page::{Added, Evidence, gather};
+use super::report::{NotTestable, Report, SignalNames};
+use super::{Overrides, Recording, Study, StudyError};
+use crate::effect::EffectError;
+use crate::plant::Plant;
+use held_out::Measured;
+
+/// What is asked of a diagnosis.
+pub struct Options<'a> {
+    /// Whether an effect, by its id, is looked for.
+    pub is_asked: &'a (dyn Fn(&str) -> bool + Sync),
+    /// Whether a device, by its instance's name, is looked at.
+    pub is_meant: &'a (dyn Fn(&str) -> bool + Sync),
+    /// Whether the answer is wanted now: the best so far is given, marked incomplete.
+    pub is_stopped: &'a (dyn Fn() -> bool + Sync),
+    /// Told after every candidate.
+    pub tell: &'a Tell<'a>,
+}
+
+/// The answer.
+#[derive(Clone, Debug)]
+pub struct Diagnosis {
+    pub report: Report,
+    /// What was found of each device that was looked at.
+    pub findings: Vec<Finding>,
+    /// The held-out recordings.
+    pub held_out: Study,
+}
+
+impl Diagnosis {
+    /// What the pictures of the report's page show: of each device with a gap of its own the held-out recordings, and what the
+    /// answer adds to them.
+    ///
+    /// # Errors
+    /// What is added does not fit a device: never of an answer that was found.
+    pub fn evidence(&self, plant: &Plant) -> Result<Evidence, EffectError> {
+        let with_gap = self.findings.iter().filter(|finding| finding.has_gap());
+        let added: Vec<_> = with_gap.map(|finding| (finding.subject, finding.specs())).collect();
+        let none = Overrides::none();
+        let added: Vec<Added<'_>> = added
+            .iter()
+            .map(|(subject, effects)| Added {
+                device: &self.held_out.subjects[*subject].name,
+                effects,
+                overrides: &none,
+            })
+            .collect();
+        gather(plant, &self.held_out, &added)
+    }
+}
+
+/// Diagnoses. `train` is what is fitted to; `held_out` is opened once, when all is fixed.
+///
+/// # Errors
+/// No recording; a model whose own effects do not fit its devices.
+pub fn diagnose(
+    plant: &Plant,
+    train: &[Recording],
+    held_out: &[Recording],
+    options: &Options<'_>,
+) -> Result<Diagnosis, StudyError> {
+    let study = Study::new(plant, train)?;
+    let meant = study.subjects.iter().zip(&study.nominal).enumerate();
+    let meant = meant.filter(|(_, (subject, _))| (options.is_meant)(&subject.id.instance(plant).name));
+    let findings: Vec<Finding> = meant
+        .filter_map(|(place, (subject, nominal))| finding::find(place, subject, nominal, &study, options))
+        .collect();
+    let held_out = Study::new(plant, held_out)?;
+    let measured = Measured::new(plant, &held_out, &findings);
+    let mut report = Report::new(verdict::verdict(&study, &findings));
+    verdict::fill(&mut report, plant, &study, &findings);
+    measured.fill(&mut report);
+    report.incomplete = (options.is_stopped)();
+    report.signals = signal_names(train);
+    report.not_testable.extend(still(&study));
+    Ok(Diagnosis { report, findings, held_out })
+}
+
+/// Signals on which model and traces do not agree.
+fn signal_names(train: &[Recording]) -> SignalNames {
+    let mut missing: Vec<String> = train.iter().flat_map(|recording| recording.absent.iter().cloned()).collect();
+    let mut ignored: Vec<String> = train.iter().flat_map(|recording| recording.ignored.keys().cloned()).collect();
+    for names in [&mut missing, &mut ignored] {
+        names.sort();
+        names.dedup();
+    }
+    SignalNames { missing, ignored }
+}
+
+/// Devices that never move in the training: nothing can be said of them.
+fn still(study: &Study) -> Vec<NotTestable> {
+    let still = study.subjects.iter().filter(|subject| !verdict::moves(subject));
+    still
+        .map(|subject| NotTestable {
+            device: Some(subject.name.clone()),
+            reason: "nothing it reports changes in the training".to_owned(),
+            needs: "a recording in which it is commanded and moves".to_owned(),
+            ..NotTestable::default()
+        })
+        .collect()
+}

@@ -1,0 +1,105 @@
+//! How far the gap shrinks.
+//!
+//! The gap of a signal is normalised by its floor: of a level the mean square of its differences over that of the floor, of an
+//! edge 1 and the mean of what its edges cost above the floor, so that a signal at its floor counts 1 and metres, counts and
+//! booleans can be put in one figure. The plant's gap is the root of the mean over its signals.
+
+use crate::gap::report::{Gap, NormalisedRms, Shrink};
+use crate::gap::statistics::{Draws, quantile};
+use crate::gap::{Score, SignalScore, Subject};
+
+/// The length of a block of time, s.
+const BLOCK_S: f64 = 2.0;
+const DRAWS: usize = 400;
+
+/// The squares of all signals above their floors, block by block of time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Squares {
+    before: Vec<f64>,
+    after: Vec<f64>,
+    signals: f64,
+}
+
+impl Squares {
+    /// Adds the signals of a device, scored without and with what is added to it.
+    pub fn add(&mut self, subject: &Subject, before: &Score, after: &Score) {
+        for (place, _) in subject.signals.iter().enumerate() {
+            let of = |score: &Score| {
+                score.signals.iter().filter(|signal| signal.signal == place).cloned().collect::<Vec<_>>()
+            };
+            let (before, after) = (of(before), of(after));
+            if before.iter().any(|signal| weight(signal) > 0.0) {
+                self.signals += 1.0;
+                add(&mut self.before, &before);
+                add(&mut self.after, &after);
+            }
+        }
+    }
+}
+
+fn weight(signal: &SignalScore) -> f64 {
+    match &signal.level {
+        Some(level) => level.at.len() as f64,
+        None => {
+            signal.edges.iter().filter(|edge| edge.recorded.is_some()).count().max(signal.edges.len().min(1)) as f64
+        }
+    }
+}
+
+/// Adds one signal of all runs: each block's part of its mean square above the floor.
+fn add(blocks: &mut Vec<f64>, runs: &[SignalScore]) {
+    let all: f64 = runs.iter().map(weight).sum();
+    for signal in runs {
+        let count = weight(signal);
+        let mut put = |at: f64, square: f64| {
+            // Runs lie beside one another: a block of each is not a block of the other, but they are drawn together.
+            let block = (at.max(0.0) / BLOCK_S) as usize;
+            if blocks.len() <= block {
+                blocks.resize(block + 1, 0.0);
+            }
+            blocks[block] += square / all;
+        };
+        match &signal.level {
+            Some(level) => {
+                let floor = signal.floor.max(1e-12);
+                for (at, difference) in level.at.iter().zip(&level.difference) {
+                    put(*at, (difference / floor).powi(2) - 1.0);
+                }
+            }
+            None => {
+                let floor = signal.floor_cost.0 / count.max(1.0);
+                for edge in &signal.edges {
+                    put(edge.at(), edge.cost - floor);
+                }
+            }
+        }
+    }
+}
+
+/// The plant's gap and how far it shrinks; `adds` says whether anything is added at all.
+pub(super) fn shrink(squares: &Squares, adds: bool) -> (Gap, Shrink) {
+    if squares.signals == 0.0 {
+        return (Gap::default(), Shrink::default());
+    }
+    let above = |sum: f64| (sum / squares.signals).max(0.0);
+    let (before, after) = (above(squares.before.iter().sum()), above(squares.after.iter().sum()));
+    let gap = Gap {
+        before: Some((1.0 + before).sqrt()),
+        after: Some((1.0 + after).sqrt()),
+        floor: Some(1.0),
+        unit: NormalisedRms::NormalisedRms,
+    };
+    let ratio = |before: f64, after: f64| if before > 0.0 { (after.max(0.0) / before).sqrt() } else { 1.0 };
+    let measured = Shrink {
+        holdout_before: gap.before,
+        holdout_after: gap.after,
+        ratio: Some(if adds { ratio(before, after) } else { 1.0 }),
+        ci95: adds.then(|| {
+            let draws = Draws::new(squares.before.len(), DRAWS, 4);
+            let ratios = draws.each(&[&squares.before, &squares.after], |sums| ratio(sums[0], sums[1]));
+            [quantile(&ratios, 0.025), quantile(&ratios, 0.975)]
+        }),
+        explainable_left: Some(after.sqrt()),
+    };
+    (gap, measured)
+}

@@ -1,0 +1,266 @@
+//! The verdict, and what stands in the report for it.
+
+use super::words::told_apart_by;
+use super::{Conclusion, Finding};
+use crate::gap::cause::{Alternative, Bounds, Candidate};
+use crate::gap::report::{Cause, FittedParameter, Member, Remainder, Report, Rival, Verdict};
+use crate::gap::{Study, Subject};
+use crate::plant::Plant;
+use crate::prototype::quantity::si_unit;
+use crate::value::Quantity;
+
+/// A cause stands clear from this weight on.
+const CLEAR: f64 = 0.9;
+/// Rivals lighter than this are not worth a line.
+const LIGHTEST: f64 = 0.005;
+
+/// Whether anything that a device reports changes.
+pub(super) fn moves(subject: &Subject) -> bool {
+    subject
+        .runs
+        .iter()
+        .flat_map(|run| run.tracks.iter().flatten())
+        .any(|track| !track.edges.is_empty() || track.values.windows(2).any(|pair| pair[0] != pair[1]))
+}
+
+/// The first that applies, in the order of the verdicts. One device's cause with another's that nothing explains is partial.
+pub(super) fn verdict(study: &Study, findings: &[Finding]) -> Verdict {
+    let some = |conclusion: Conclusion| findings.iter().any(|finding| finding.conclusion == conclusion);
+    let explains = some(Conclusion::Explained) || some(Conclusion::Partial);
+    match () {
+        () if !some(Conclusion::Unknown) && !explains => {
+            if study.subjects.iter().any(moves) {
+                Verdict::NoGap
+            } else {
+                Verdict::NotTestable
+            }
+        }
+        () if !explains => Verdict::Unknown,
+        () if some(Conclusion::Partial) || some(Conclusion::Unknown) => Verdict::Partial,
+        () if findings.iter().any(is_ambiguous) => Verdict::Ambiguous,
+        () => Verdict::Effect,
+    }
+}
+
+fn is_ambiguous(finding: &Finding) -> bool {
+    let unclear = |answer: &crate::gap::cause::Answer| {
+        answer.alternatives.iter().any(|other| other.is_same) || answer.weight < CLEAR
+    };
+    finding.answers.iter().any(unclear)
+}
+
+/// Causes, rivals and remainder.
+pub(super) fn fill(report: &mut Report, plant: &Plant, study: &Study, findings: &[Finding]) {
+    if matches!(report.verdict, Verdict::Partial | Verdict::Unknown) {
+        report.remainder = Some(remainder(findings));
+    }
+    if matches!(report.verdict, Verdict::NotTestable | Verdict::NoGap) {
+        return;
+    }
+    let explaining =
+        || findings.iter().filter(|finding| matches!(finding.conclusion, Conclusion::Explained | Conclusion::Partial));
+    let certainty = findings.iter().map(|finding| match finding.conclusion {
+        Conclusion::Unknown => 1.0,
+        _ if finding.remainder.is_significant => finding.remainder.certainty,
+        _ => 0.0,
+    });
+    let outside = if report.verdict == Verdict::Unknown { 1.0 } else { certainty.fold(0.0, f64::max).min(0.99) };
+    report.outside = Some(outside);
+    // One set of effects over all devices: the product of what each has, and of each rival with the others as they are.
+    let all: f64 = explaining().flat_map(|finding| &finding.answers).map(|answer| answer.weight.max(1e-6)).product();
+    let mut set = 0;
+    for finding in explaining() {
+        let subject = &study.subjects[finding.subject];
+        let site = Site { plant, subject };
+        for answer in &finding.answers {
+            let first: usize = finding.ladder.best.set[..answer.place].iter().map(|c| c.free.len()).sum();
+            let candidate = &finding.ladder.best.set[answer.place];
+            let bounds = &finding.bounds[first..first + candidate.free.len()];
+            report.cause.push(site.cause(candidate, bounds, answer.alternatives.as_slice(), all));
+            for other in &answer.alternatives {
+                let weight = other.weight * all / answer.weight.max(1e-6);
+                if other.is_same || weight >= LIGHTEST {
+                    set += 1;
+                    report.rivals.push(site.rival(candidate, other, weight, set));
+                }
+            }
+        }
+    }
+    normalise(report, outside, all);
+}
+
+/// Makes the weights of the sets and of what lies outside sum to 1.
+fn normalise(report: &mut Report, outside: f64, all: f64) {
+    if report.cause.is_empty() {
+        return;
+    }
+    let sum = all + report.rivals.iter().map(|rival| rival.weight).sum::<f64>();
+    let factor = (1.0 - outside) / sum;
+    report.cause.iter_mut().for_each(|cause| cause.weight *= factor);
+    report.rivals.iter_mut().for_each(|rival| rival.weight *= factor);
+    report.rivals.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+}
+
+/// What is left of the gap over all devices that have one.
+fn remainder(findings: &[Finding]) -> Remainder {
+    let with_gap = || findings.iter().filter(|finding| finding.has_gap());
+    let all: f64 = with_gap().map(|finding| finding.misfit).sum();
+    let left = |finding: &Finding| match finding.conclusion {
+        Conclusion::Unknown => finding.misfit,
+        _ => finding.misfit * finding.remainder.share,
+    };
+    let mut depends_on: Vec<String> = Vec::new();
+    for name in
+        with_gap().filter(|finding| finding.conclusion != Conclusion::Explained).flat_map(|f| &f.remainder.depends_on)
+    {
+        if !depends_on.contains(name) {
+            depends_on.push(name.clone());
+        }
+    }
+    Remainder { share: with_gap().map(left).sum::<f64>() / all.max(1e-12), depends_on }
+}
+
+/// The name of a component of a task among several.
+fn component(task: Option<&str>, component: Option<&str>) -> Option<String> {
+    match (task, component) {
+        (None, component) => component.map(str::to_owned),
+        (Some(task), None) => Some(task.to_owned()),
+        (Some(task), Some(component)) => Some(format!("{task}.{component}")),
+    }
+}
+
+/// A device in its plant.
+struct Site<'a> {
+    plant: &'a Plant,
+    subject: &'a Subject,
+}
+
+impl Site<'_> {
+    fn member(&self, candidate: &Candidate) -> Member {
+        let instance = self.subject.id.instance(self.plant);
+        let task = (instance.tasks.len() > 1).then(|| self.subject.id.task(self.plant).name.as_str());
+        Member {
+            device: instance.name.clone(),
+            component: component(task, candidate.component.as_deref()),
+            effect: candidate.effect.id.to_owned(),
+            place: candidate.place,
+        }
+    }
+
+    fn cause(&self, candidate: &Candidate, bounds: &[Bounds], others: &[Alternative], weight: f64) -> Cause {
+        let Member { device, component, effect, place } = self.member(candidate);
+        let same = others.iter().filter(|other| other.is_same).map(|other| self.member(other.candidate()));
+        let class = std::iter::once(self.member(candidate)).chain(same).collect();
+        let parameters = self.parameters(candidate, bounds);
+        Cause { device, component, effect, place, weight, class, parameters, texts: candidate.texts.clone() }
+    }
+
+    fn rival(&self, named: &Candidate, other: &Alternative, weight: f64, set: u32) -> Rival {
+        let candidate = other.candidate();
+        let Member { device, component, effect, place } = self.member(candidate);
+        let own = other.trial.values().last().map_or(&[][..], |(_, at)| at);
+        let exact = |value: &f64| Bounds { value: *value, interval: [*value; 2], is_identifiable: true };
+        let bounds: Vec<Bounds> = own.iter().map(exact).collect();
+        Rival {
+            device,
+            component,
+            effect,
+            place,
+            weight,
+            told_apart_by: told_apart_by((named.effect.id, named.place), (candidate.effect.id, candidate.place)),
+            set: Some(set),
+            parameters: self.parameters(candidate, &bounds),
+            texts: candidate.texts.clone(),
+        }
+    }
+
+    fn parameters(&self, candidate: &Candidate, bounds: &[Bounds]) -> Vec<FittedParameter> {
+        let free = candidate.free.iter().zip(bounds).map(|(free, bounds)| FittedParameter {
+            name: free.name.to_owned(),
+            value: bounds.value,
+            unit: self.unit(candidate, free.name),
+            ci95: bounds.interval,
+            not_identifiable: !bounds.is_identifiable,
+        });
+        let fixed = candidate.fixed.iter().map(|(name, value)| FittedParameter {
+            name: (*name).to_owned(),
+            value: *value,
+            unit: self.unit(candidate, name),
+            ci95: [*value; 2],
+            not_identifiable: false,
+        });
+        free.chain(fixed).collect()
+    }
+
+    /// The SI unit of a parameter: its own, of a parameter's value the parameter's, of a sensor's the signal's.
+    fn unit(&self, candidate: &Candidate, name: &str) -> String {
+        let is_rotary =
+            self.subject.parameters.0.contains_key("motion") && self.subject.parameters.text("motion") == "rotary";
+        let of = |quantities: &[Quantity]| {
+            let at = usize::from(is_rotary).min(quantities.len().saturating_sub(1));
+            quantities.get(at).map(|quantity| si_unit(*quantity).symbol.to_owned())
+        };
+        let declared = candidate.effect.parameters.iter().find(|parameter| parameter.name == name);
+        let Some(declared) = declared else { return "1".to_owned() };
+        if candidate.is_parameter_error() {
+            let parameter = candidate.component.as_deref().and_then(|name| self.subject.kind.parameter(name));
+            return parameter.and_then(|parameter| of(parameter.quantities)).unwrap_or_else(|| "1".to_owned());
+        }
+        match (candidate.effect.id, declared.quantities) {
+            ("jerk-limit", _) => if is_rotary { "rad/s3" } else { "m/s3" }.to_owned(),
+            ("offset" | "hysteresis" | "blind-range" | "drift" | "stuck", [Quantity::One]) => {
+                let port = candidate.component.as_deref().and_then(|name| self.subject.kind.port(name));
+                let unit = port
+                    .and_then(|port| of(self.subject.kind.ports[port].quantities))
+                    .unwrap_or_else(|| "1".to_owned());
+                match (candidate.effect.id, unit.as_str()) {
+                    ("drift", _) => format!("{unit}/s"),
+                    // A switch looks along a way.
+                    ("hysteresis" | "blind-range", "1") => "m".to_owned(),
+                    _ => unit,
+                }
+            }
+            (_, quantities) => of(quantities).unwrap_or_else(|| "1".to_owned()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::plant::EffectPlace;
+
+    fn cause(weight: f64) -> Cause {
+        Cause {
+            device: "Belt".to_owned(),
+            component: None,
+            effect: "belt-slip".to_owned(),
+            place: EffectPlace::Transmission,
+            weight,
+            class: Vec::new(),
+            parameters: Vec::new(),
+            texts: BTreeMap::new(),
+        }
+    }
+
+    #[test]
+    fn weights_sum_to_one() {
+        let mut report = Report::new(Verdict::Ambiguous);
+        report.cause = vec![cause(0.4), cause(0.4)];
+        report.rivals = vec![Rival {
+            device: "Belt".to_owned(),
+            component: None,
+            effect: "scale-error".to_owned(),
+            place: EffectPlace::Transmission,
+            weight: 0.4,
+            told_apart_by: String::new(),
+            set: Some(1),
+            parameters: Vec::new(),
+            texts: BTreeMap::new(),
+        }];
+        normalise(&mut report, 0.2, 0.4);
+        assert!((report.cause[0].weight + report.rivals[0].weight + 0.2 - 1.0).abs() < 1e-12);
+    }
+}

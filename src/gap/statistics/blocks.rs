@@ -1,0 +1,112 @@
+//! Blocks of time drawn anew: how sure a figure of one trace is.
+//!
+//! Source: the block bootstrap (H. R. Künsch, Annals of Statistics 17 (1989)), over blocks that do not overlap. What a model costs
+//! is kept once for each block, so that a draw is a sum of sums.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Blocks drawn with replacement, many times over.
+#[derive(Clone, Debug)]
+pub struct Draws {
+    draws: Vec<Vec<u32>>,
+}
+
+impl Draws {
+    /// `count` draws of as many blocks as there are; they follow from `seed`.
+    pub fn new(blocks: usize, count: usize, seed: u64) -> Draws {
+        let mut dice = ChaCha8Rng::seed_from_u64(seed);
+        let mut draw = || (0..blocks).map(|_| dice.random_range(0..blocks as u32)).collect();
+        Draws { draws: (0..count).map(|_| draw()).collect() }
+    }
+
+    /// The sum of `blocks` (one number for each) in every draw.
+    pub fn sums(&self, blocks: &[f64]) -> Vec<f64> {
+        let sum = |draw: &Vec<u32>| draw.iter().map(|block| blocks[*block as usize]).sum();
+        self.draws.iter().map(sum).collect()
+    }
+
+    /// What `statistic` makes of the sums of several models in every draw. Draws in which it is no number are left out.
+    pub fn each(&self, models: &[&[f64]], statistic: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+        let sums: Vec<Vec<f64>> = models.iter().map(|blocks| self.sums(blocks)).collect();
+        let of = |draw: usize| statistic(&sums.iter().map(|sums| sums[draw]).collect::<Vec<_>>());
+        (0..self.draws.len()).map(of).filter(|value| !value.is_nan()).collect()
+    }
+
+    /// What `statistic` makes of the blocks drawn, by their numbers, in every draw.
+    pub fn picks(&self, statistic: impl Fn(&[usize]) -> f64) -> Vec<f64> {
+        let of = |draw: &Vec<u32>| statistic(&draw.iter().map(|block| *block as usize).collect::<Vec<_>>());
+        self.draws.iter().map(of).collect()
+    }
+
+    /// In which share of the draws each model is the best: costs less than every other, `handicap` of each added. The shares
+    /// sum to 1.
+    pub fn wins(&self, models: &[&[f64]], handicaps: &[f64]) -> Vec<f64> {
+        let mut wins = vec![0.0; models.len()];
+        let sums: Vec<Vec<f64>> = models.iter().map(|blocks| self.sums(blocks)).collect();
+        let share = 1.0 / self.draws.len() as f64;
+        for draw in 0..self.draws.len() {
+            let costs = sums.iter().zip(handicaps).map(|(sums, handicap)| sums[draw] + handicap).enumerate();
+            if let Some((winner, _)) = costs.min_by(|a, b| a.1.total_cmp(&b.1)) {
+                wins[winner] += share;
+            }
+        }
+        wins
+    }
+}
+
+/// The value below which `share` of `values` lie, between neighbours on a straight line; NaN of none.
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let below = sorted[place.floor() as usize];
+    let above = sorted[place.ceil() as usize];
+    below + (above - below) * place.fract()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spread_of_a_mean_is_what_theory_says() {
+        let mut dice = ChaCha8Rng::seed_from_u64(5);
+        let blocks: Vec<f64> = (0..100).map(|_| dice.random::<f64>()).collect();
+        let means: Vec<f64> = Draws::new(100, 2000, 1).sums(&blocks).iter().map(|sum| sum / 100.0).collect();
+        // The deviation of a uniform number is 1/√12, that of the mean of 100 a tenth of it.
+        let half = 0.5 * (quantile(&means, 0.975) - quantile(&means, 0.025));
+        assert!((half - 1.96 * 0.02887).abs() < 0.008, "{half}");
+    }
+
+    #[test]
+    fn who_is_better_in_every_block_always_wins() {
+        let (good, bad) = (vec![1.0; 20], vec![1.5; 20]);
+        let draws = Draws::new(20, 300, 2);
+        assert!((draws.wins(&[&bad, &good], &[0.0, 0.0])[1] - 1.0).abs() < 1e-9);
+        // 10 is what the better gains.
+        assert!((draws.wins(&[&bad, &good], &[0.0, 11.0])[0] - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn who_is_better_by_chance_wins_by_half() {
+        let mut dice = ChaCha8Rng::seed_from_u64(9);
+        let mut noise = || (0..40).map(|_| dice.random::<f64>() - 0.5).collect::<Vec<f64>>();
+        let (mut a, mut b) = (noise(), noise());
+        let middle = |blocks: &mut Vec<f64>| {
+            let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
+            blocks.iter_mut().for_each(|cost| *cost -= mean);
+        };
+        (middle(&mut a), middle(&mut b));
+        let wins = Draws::new(40, 2000, 3).wins(&[&a, &b], &[0.0, 0.0]);
+        assert!((wins[0] - 0.5).abs() < 0.05, "{wins:?}");
+    }
+
+    #[test]
+    fn quantiles_lie_between_neighbours() {
+        assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.5), 2.0);
+        assert_eq!(quantile(&[0.0, 1.0], 0.25), 0.25);
+        assert!(quantile(&[], 0.5).is_nan());
+    }
+}

@@ -1,0 +1,11 @@
+//! What the residuals of one trace can tell, and what they cannot: blocks drawn anew, correlation, bins, thresholds.
+
+mod blocks;
+mod correlation;
+mod dependence;
+mod threshold;
+
+pub use blocks::{Draws, quantile};
+pub use correlation::{effective_number, inflation, lag_one};
+pub use dependence::{binned_share, rank_correlation};
+pub use threshold::{SAME_CLASS, least_gain};

@@ -1,0 +1,155 @@
+//! Recordings of the rig by an independent simulation, whose effects are known, through the whole diagnosis: with a dozen effects
+//! to choose from the two without one have no gap, the causes of the others stand in the answer's class, and what lies outside
+//! of the library is said to.
+
+use std::fs::File;
+use std::io::BufReader;
+
+use kinetwin::gap::Recording;
+use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose, kept_back};
+use kinetwin::gap::report::{Report, Verdict};
+use kinetwin::plant::Plant;
+use kinetwin::run::model;
+use kinetwin::trace::Reader;
+
+const DOZEN: [&str; 12] = [
+    "dead-time",
+    "first-order-lag",
+    "gain-error",
+    "acceleration-limit",
+    "velocity-limit",
+    "direction-asymmetry",
+    "coulomb-friction",
+    "viscous-friction",
+    "backlash",
+    "once-per-revolution-error",
+    "on-delay",
+    "off-delay",
+];
+
+fn recording(plant: &Plant, case: u32, which: &str) -> Recording {
+    let path = format!("../shared/data/rig-sample/case-{case:02}/{which}.cps.jsonl.zst");
+    let file = File::open(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let reader = Reader::new(&path, BufReader::new(file)).expect("a trace");
+    Recording::read(plant, &path, reader, &[]).expect("a trace of the rig")
+}
+
+fn diagnosed(case: u32) -> Report {
+    let plant = model::load("models/rig").expect("the rig");
+    let [train, holdout] = ["train", "holdout"].map(|which| vec![recording(&plant, case, which)]);
+    let options =
+        Options { is_asked: &|id| DOZEN.contains(&id), is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+    let Diagnosis { report, .. } = diagnose(&plant, &train, &holdout, &options).expect("a diagnosis");
+    assert_eq!(report.flaws(), Vec::<String>::new(), "case {case}: {}", report.to_json());
+    report
+}
+
+/// Whether the answer names the effect on the device and component, or cannot tell it from what it names.
+#[track_caller]
+fn check_cause(report: &Report, device: &str, component: Option<&str>, effect: &str) {
+    let of_class = report.cause.iter().flat_map(|cause| &cause.class);
+    let found = of_class
+        .filter(|member| member.device == device && member.component.as_deref() == component)
+        .any(|member| member.effect == effect);
+    assert!(found, "{}", report.to_json());
+}
+
+#[track_caller]
+fn check_value(report: &Report, effect: &str, parameter: &str, truth: f64) {
+    let of = report.cause.iter().filter(|cause| cause.effect == effect).flat_map(|cause| &cause.parameters);
+    let found = of.into_iter().find(|found| found.name == parameter).expect("the parameter");
+    let [from, to] = found.ci95;
+    // The labels of some recordings lie a thousandth beside what their curves show: half a tick of the recorder.
+    let slack = 1e-3 * truth.abs();
+    assert!((from - slack..=to + slack).contains(&truth), "{effect}: {truth} is not in [{from}, {to}]");
+}
+
+#[track_caller]
+fn check_shrinks(report: &Report, to: f64) {
+    let ratio = report.shrink.ratio.expect("a ratio");
+    assert!(ratio < to, "{}", report.to_json());
+}
+
+#[test]
+fn a_rig_as_the_table_has_it_has_no_gap() {
+    let report = diagnosed(1);
+    assert_eq!(report.verdict, Verdict::NoGap, "{}", report.to_json());
+}
+
+#[test]
+fn nor_has_one_that_is_reported_slowly() {
+    let report = diagnosed(2);
+    assert_eq!(report.verdict, Verdict::NoGap, "{}", report.to_json());
+}
+
+#[test]
+fn a_late_gripper_is_late_by_its_command_or_by_its_report() {
+    let report = diagnosed(3);
+    assert_eq!(report.verdict, Verdict::Ambiguous, "{}", report.to_json());
+    check_cause(&report, "Gripper", None, "dead-time");
+    check_value(&report, "dead-time", "time", 0.16884);
+    check_shrinks(&report, 0.1);
+}
+
+#[test]
+fn a_motor_is_slower_backwards_by_a_third_of_a_thousandth() {
+    let report = diagnosed(4);
+    assert_eq!(report.verdict, Verdict::Effect, "{}", report.to_json());
+    check_cause(&report, "Motor", None, "direction-asymmetry");
+    check_value(&report, "direction-asymmetry", "asymmetry", 0.000_315_2);
+    check_shrinks(&report, 0.1);
+}
+
+#[test]
+fn an_axis_of_the_robot_accelerates_less() {
+    let report = diagnosed(5);
+    check_cause(&report, "Robot", Some("Y"), "acceleration-limit");
+    check_value(&report, "acceleration-limit", "limit", 1.9926);
+    check_shrinks(&report, 0.1);
+}
+
+#[test]
+fn friction_that_warms_up_is_only_partly_coulombs() {
+    let report = diagnosed(6);
+    assert!(matches!(report.verdict, Verdict::Partial | Verdict::Unknown), "{}", report.to_json());
+    let remainder = report.remainder.expect("a remainder");
+    assert!(remainder.depends_on.iter().any(|on| on == "time"), "{remainder:?}");
+}
+
+#[test]
+fn two_devices_have_a_gap_each() {
+    let report = diagnosed(7);
+    check_cause(&report, "Robot", Some("Y"), "first-order-lag");
+    check_cause(&report, "Belt", Some("lightBarrierB"), "on-delay");
+    check_value(&report, "on-delay", "time", 0.056_224);
+    check_shrinks(&report, 0.1);
+}
+
+#[test]
+fn an_axis_errs_once_per_revolution() {
+    let report = diagnosed(8);
+    assert_eq!(report.verdict, Verdict::Effect, "{}", report.to_json());
+    check_cause(&report, "Axis", None, "once-per-revolution-error");
+    check_value(&report, "once-per-revolution-error", "amplitude", 0.007_332_6);
+    check_value(&report, "once-per-revolution-error", "period", 0.04);
+    check_shrinks(&report, 0.1);
+}
+
+#[test]
+fn without_held_out_recordings_spans_are_kept_back() {
+    let plant = model::load("models/rig").expect("the rig");
+    let split = kept_back(&[recording(&plant, 1, "train")]);
+    let ends = split.train[0].ends;
+    for at in [0.01, 0.3, 0.5, 0.8].map(|share| share * ends) {
+        assert!(!(split.train[0].is_blind(at) == split.held_out[0].is_blind(at)), "{at}");
+    }
+}
+
+#[test]
+fn a_search_that_is_ended_at_once_says_so() {
+    let plant = model::load("models/rig").expect("the rig");
+    let train = vec![recording(&plant, 3, "train")];
+    let options = Options { is_asked: &|_| true, is_meant: &|_| true, is_stopped: &|| true, tell: &|_| {} };
+    let answer = diagnose(&plant, &train, &train, &options).expect("a diagnosis");
+    assert!(answer.report.incomplete);
+}
