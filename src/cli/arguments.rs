@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::apply::ApplyArguments;
 use super::diagnose::DiagnoseArguments;
+use super::experiment::ExperimentArguments;
 use super::locate::LocateArguments;
 use super::table::{ExportArguments, ImportArguments};
 use crate::adapter::ParseEndpointError;
@@ -65,6 +66,7 @@ pub enum GapCommand {
     Apply(ApplyArguments),
     Locate(LocateArguments),
     Diagnose(DiagnoseArguments),
+    Plan(ExperimentArguments),
 }
 
 #[derive(Debug, Subcommand)]

@@ -7,6 +7,7 @@ mod apply;
 mod arguments;
 mod check;
 mod diagnose;
+mod experiment;
 mod info;
 mod locate;
 mod log;
@@ -58,6 +59,7 @@ pub fn main() -> ExitCode {
         Some(Command::Trace { command: TraceCommand::Info(arguments) }) => info::info(&arguments),
         Some(Command::Gap { command: GapCommand::Locate(arguments) }) => locate::run(&arguments),
         Some(Command::Gap { command: GapCommand::Diagnose(arguments) }) => diagnose::run(&arguments),
+        Some(Command::Gap { command: GapCommand::Plan(arguments) }) => experiment::run(&arguments),
         Some(Command::Trace { command: TraceCommand::Cut(arguments) }) => replay::cut(&arguments),
         Some(Command::Trace { command: TraceCommand::Import(arguments) }) => table::import(&arguments),
         Some(Command::Trace { command: TraceCommand::Export(arguments) }) => table::export(&arguments),

@@ -35,6 +35,7 @@ mod mask;
 mod overrides;
 pub mod page;
 mod parts;
+pub mod plan;
 mod prediction;
 pub mod production;
 mod recording;

@@ -164,6 +164,30 @@ impl Recording {
         reading.finish()
     }
 
+    /// The recording that a machine would give that took `commands` and reported `reports`, each a time in s, a register and
+    /// a value as it stands on the wire; both in the order of time. It ends at `ends`, s.
+    pub fn of(
+        plant: &Plant,
+        name: &str,
+        commands: &[(f64, RegisterId, f64)],
+        reports: &[(f64, RegisterId, f64)],
+        ends: f64,
+    ) -> Recording {
+        let map = &plant.signal_map;
+        let mut recording = Reading::new(map, name, Header::default(), &[]).recording;
+        recording.ends = ends;
+        recording.lines = (commands.len() + reports.len()) as u64;
+        for (at, register, value) in commands.iter().chain(reports) {
+            let signal = map.signal(*register);
+            recording.values[register.index()].push(Stamped { at: *at, value: to_si(*value, signal.unit) });
+            let stamps = &mut recording.stamps[Beat::of(signal) as usize];
+            if signal.direction == Direction::Report && stamps.last() != Some(at) {
+                stamps.push(*at);
+            }
+        }
+        recording
+    }
+
     /// What was recorded of a register, in the order of time; empty where the trace does not hold it. Values are SI.
     pub fn values(&self, register: RegisterId) -> &[Stamped] {
         self.values.get(register.index()).map_or(&[], Vec::as_slice)
