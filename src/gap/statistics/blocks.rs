@@ -98,7 +98,8 @@ mod tests {
             let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
             blocks.iter_mut().for_each(|cost| *cost -= mean);
         };
-        (middle(&mut a), middle(&mut b));
+        middle(&mut a);
+        middle(&mut b);
         let wins = Draws::new(40, 2000, 3).wins(&[&a, &b], &[0.0, 0.0]);
         assert!((wins[0] - 0.5).abs() < 0.05, "{wins:?}");
     }

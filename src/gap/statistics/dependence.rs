@@ -49,7 +49,8 @@ mod tests {
     #[test]
     fn what_depends_on_the_regressor_is_explained() {
         let by: Vec<f64> = (0..1300).map(f64::from).collect();
-        let values: Vec<f64> = by.iter().map(|t| t / 1300.0 + if *t as u32 % 2 == 0 { 0.1 } else { -0.1 }).collect();
+        let values: Vec<f64> =
+            by.iter().map(|t| t / 1300.0 + if (*t as u32).is_multiple_of(2) { 0.1 } else { -0.1 }).collect();
         let share = binned_share(&values, &by, 13, 1.0);
         // The variance of the ramp is 1/12, of the alternation 1/100; within a bin a 169th of the ramp's is left.
         let expect = 1.0 - (0.01 + 1.0 / 12.0 / 169.0) / (0.01 + 1.0 / 12.0);
