@@ -3,12 +3,12 @@
 //! The rig's recordings are not part of the project: where they do not lie beside it, the tests say so and pass.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Cursor};
 use std::path::Path;
 use std::time::Duration;
 
 use kinetwin::device::KINDS;
-use kinetwin::gap::{Location, Recording, Study, locate};
+use kinetwin::gap::{Location, Recording, Span, Study, locate};
 use kinetwin::plant::{self, embedded::Embedded};
 use kinetwin::run::{self, Connect, Options, RecordTo, Speed};
 use kinetwin::trace::Reader;
@@ -78,6 +78,70 @@ fn friction_and_a_wobbling_screw_are_the_axis_s() {
 #[test]
 fn two_gaps_on_two_devices_are_both_named() {
     check("case-07", &["Robot", "Belt"]);
+}
+
+/// A recording of the rig, from its lines.
+fn read(lines: &str, masks: &[Span]) -> Result<(Study, Recording), String> {
+    let plant = plant::load(&Embedded, "models/rig", KINDS).expect("the rig");
+    let text = format!("{{\"trace\":\"kinetwin/1\",\"source\":\"plant\"}}\n{lines}");
+    let reader = Reader::new("x.cps.jsonl", Cursor::new(text.into_bytes())).map_err(|error| error.to_string())?;
+    let recording = Recording::read(&plant, "x.cps.jsonl", reader, masks).map_err(|error| error.to_string())?;
+    let study = Study::new(&plant, std::slice::from_ref(&recording)).map_err(|error| error.to_string())?;
+    Ok((study, recording))
+}
+
+/// One report of `value` of the motor's speed each 20 ms, `count` of them, the motor being told nothing.
+fn speeds(count: usize, value: impl Fn(usize) -> f64) -> String {
+    let line = |k: usize| {
+        let (at, value) = (k as f64 * 0.02, value(k));
+        format!(
+            "{{\"t\":{at:.3},\"from\":\"plant\",\"SendValue\":[{{\"name\":\"Motor.speedActual\",\"value\":{value:.2}}}]}}\n"
+        )
+    };
+    (0..count).map(line).collect()
+}
+
+#[test]
+fn what_model_and_trace_lack_is_named_and_left_out() {
+    let stranger = "{\"t\":9.0,\"from\":\"plant\",\"SendValue\":[{\"name\":\"Oven.heat\",\"value\":1.0}]}\n";
+    let (study, recording) = read(&(speeds(300, |_| 0.0) + stranger), &[]).expect("a recording");
+    assert_eq!(recording.ignored.keys().collect::<Vec<_>>(), ["Oven.heat"]);
+    assert!(recording.absent.contains(&"Belt.velocityActual".to_owned()) && recording.absent.len() == 35);
+    assert_eq!(own(&locate(&study)), [""; 0]);
+}
+
+#[test]
+fn a_masked_span_is_no_evidence() {
+    let jam = speeds(300, |k| if (100..150).contains(&k) { 3.0 } else { 0.0 });
+    assert_eq!(own(&locate(&read(&jam, &[]).expect("a recording").0)), ["Motor"]);
+    let mask = [Span { from: 1.99, to: 3.01 }];
+    assert_eq!(own(&locate(&read(&jam, &mask).expect("a recording").0)), [""; 0]);
+}
+
+#[test]
+fn a_trace_that_says_little_is_read_all_the_same() {
+    for count in [1, 2, 5, 20] {
+        let (study, _) = read(&speeds(count, |_| 0.0), &[]).expect("a recording");
+        assert_eq!(own(&locate(&study)), [""; 0], "{count}");
+    }
+}
+
+#[test]
+fn a_trace_that_cannot_be_used_is_refused_with_the_place() {
+    let check = |lines: &str, words: &str| {
+        let error = read(lines, &[]).expect_err("no recording");
+        assert!(error.contains(words), "{error}");
+    };
+    check("", "none of the model's signals");
+    check(
+        "{\"t\":0.1,\"from\":\"plant\",\"SendValue\":[{\"name\":\"Oven.heat\",\"value\":1.0}]}\n",
+        "1 signals that the model lacks",
+    );
+    check(&(speeds(3, |_| 0.0) + &speeds(1, |_| 0.0)), "time goes back");
+    check(
+        "{\"t\":0.1,\"from\":\"plant\",\"SendValue\":[{\"name\":\"Motor.speedActual\",\"value\":NaN}]}\n{}\n",
+        "x.cps.jsonl:2",
+    );
 }
 
 /// Runs the line, with `effect` on its Conveyor5, under its automation, and records it.

@@ -227,6 +227,11 @@ fn own_text(own: &[&Located]) -> String {
                 signal.evidence
             ));
         }
+        let regimes = device.regimes.iter().map(|regime| format!("{} {:.0} %", regime.when, 100.0 * regime.share));
+        let regimes = regimes.collect::<Vec<_>>().join(", ");
+        if !regimes.is_empty() {
+            out.push_str(&format!("{:>5}  {}: {regimes}\n", "", device.device));
+        }
     }
     out.push('\n');
     out

@@ -50,7 +50,12 @@ impl Grid {
         Grid { instants, cycle: step, spread: 0.0, lateness: 0.0, is_rebuilt: true }
     }
 
-    /// The stamps themselves.
+    /// Stamps that are the instants themselves.
+    pub fn of_rows(stamps: &[f64]) -> Grid {
+        Grid { spread: 0.0, ..Grid::of_stamps(stamps) }
+    }
+
+    /// The stamps themselves, in place of instants that nobody knows.
     pub fn of_stamps(stamps: &[f64]) -> Grid {
         let cycle = median(&spacings(stamps)).unwrap_or(0.0);
         let off: Vec<f64> = spacings(stamps).iter().map(|spacing| (spacing - cycle).abs()).collect();

@@ -15,6 +15,8 @@ use serde::Serialize;
 
 use super::floor::Floor;
 use super::prediction::{Predicted, Prediction};
+use super::regimes::regimes;
+use super::report::Regime;
 use super::score::{Score, SignalScore};
 use super::study::Study;
 use super::subject::Subject;
@@ -49,6 +51,8 @@ pub struct Located {
     /// The greatest of its statistics, which a chance keeps below [`THRESHOLD`].
     pub evidence: f64,
     pub signals: Vec<LocatedSignal>,
+    /// Where in its motion the gap of its worst level lies, the largest share first; empty without a gap of its own.
+    pub regimes: Vec<Regime>,
 }
 
 /// How far a device's report is off.
@@ -115,7 +119,9 @@ fn located(subject: &Subject, nominal: &Prediction, score: &Score) -> Located {
         })
         .collect();
     let evidence = signals.iter().map(|signal| signal.evidence).fold(0.0, f64::max);
-    Located { device: subject.name.clone(), own: evidence > THRESHOLD, inherited: None, share: 0.0, evidence, signals }
+    let own = evidence > THRESHOLD;
+    let regimes = if own { regimes(subject, nominal, score) } else { Vec::new() };
+    Located { device: subject.name.clone(), own, inherited: None, share: 0.0, evidence, signals, regimes }
 }
 
 fn signal(subject: &Subject, nominal: &Prediction, place: usize, scores: &[&SignalScore]) -> LocatedSignal {

@@ -39,6 +39,7 @@ pub mod plan;
 mod prediction;
 pub mod production;
 mod recording;
+mod regimes;
 pub mod report;
 mod score;
 pub mod statistics;

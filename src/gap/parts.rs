@@ -294,3 +294,89 @@ pub(super) fn shifted(edge: &PredictedEdge, shift: f64) -> f64 {
     const SLOWEST: f64 = 1e-3;
     edge.part.map_or(edge.at, |passing| edge.at - shift / passing.speed.max(SLOWEST))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::gap::{Edge, Grid};
+
+    const CYCLE_S: f64 = 0.02;
+
+    /// A barrier that was cut in these spans, s, looked at every 20 ms.
+    fn barrier(cuts: &[(f64, f64)]) -> Track {
+        let edge = |at: f64, to: f64| Edge { index: (at / CYCLE_S).ceil() as usize, to };
+        let edges = cuts.iter().flat_map(|(from, to)| [edge(*from, 1.0), edge(*to, 0.0)]).collect();
+        let grid = Arc::new(Grid::of_steps(CYCLE_S, 60.0));
+        Track {
+            grid,
+            first: 0,
+            values: Vec::new(),
+            initial: 0.0,
+            edges,
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind: Vec::new(),
+        }
+    }
+
+    /// A belt of the rig's that always runs at 0.5 m/s.
+    fn of_rig(a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
+        let geometry = Geometry { beams: [Some(0.3), Some(1.7)], lengths: vec![0.3], tolerance: 0.0 };
+        assign(&geometry, [Some(&barrier(a)), Some(&barrier(b))], &|at| 0.5 * at)
+    }
+
+    #[test]
+    fn a_part_is_known_again_at_the_second_barrier() {
+        let (script, origins) = of_rig(&[(1.01, 1.61), (7.01, 7.61)], &[(3.81, 4.41), (9.81, 10.41)]);
+        let parts = [0, 0, 1, 1].map(Origin::Part);
+        assert_eq!(origins, [parts.to_vec(), parts.to_vec()]);
+        assert_eq!(script.cuts.len(), 4);
+        let ways: Vec<f64> = script.cuts.iter().map(|cut| cut.ahead).collect();
+        assert!(ways.iter().all(|way| *way == 0.0 || (*way - 1.4).abs() < 1e-9), "{ways:?}");
+        assert!(script.cuts.iter().all(|cut| cut.length == 0.3 && cut.taken.is_none()));
+    }
+
+    #[test]
+    fn a_late_sensor_does_not_make_another_part() {
+        // Barrier B comes on 56 ms late: the cut is shorter than the part.
+        let (script, origins) = of_rig(&[(1.01, 1.61)], &[(3.87, 4.41)]);
+        assert_eq!(origins, [[0, 0].map(Origin::Part).to_vec(), [0, 0].map(Origin::Part).to_vec()]);
+        assert!(script.cuts.iter().all(|cut| cut.length == 0.3));
+    }
+
+    #[test]
+    fn what_came_from_elsewhere_is_a_part_of_its_own_and_what_was_taken_is_played_back() {
+        // Nothing at A is 1.4 m before this; and it leaves the beam after 0.05 m, by other hands.
+        let (script, origins) = of_rig(&[(1.01, 1.61)], &[(8.0, 8.1)]);
+        assert_eq!(origins[1], [Origin::Part(1), Origin::Input]);
+        let cut = script.cuts.iter().find(|cut| cut.part == 1).expect("its cut");
+        assert!(cut.taken.is_some_and(|taken| (taken - 8.1).abs() < CYCLE_S) && cut.ahead == 0.0);
+    }
+
+    #[test]
+    fn a_part_is_where_all_its_edges_are_likeliest() {
+        let track = barrier(&[(1.01, 1.61)]);
+        let edge = |at: f64, to: f64| PredictedEdge {
+            at,
+            index: (at / CYCLE_S).ceil() as usize,
+            to,
+            part: Some(crate::gap::Passing { part: 0, speed: 0.5 }),
+        };
+        // Both edges 45 ms early: the part was 22.5 mm further back than its first edge said, or a little beside.
+        let edges = [edge(0.965, 1.0), edge(1.565, 0.0)];
+        let parts: Vec<PartEdge<'_>> = track
+            .edges
+            .iter()
+            .zip(edges)
+            .map(|(seen, predicted)| PartEdge { track: &track, sigma: 3e-4, index: seen.index, predicted })
+            .collect();
+        let shift = likeliest_shift(&parts);
+        assert!((-0.0275..=-0.0175).contains(&shift), "{shift}");
+        assert!(parts.iter().all(|part| {
+            let predicted = PredictedEdge { at: shifted(&part.predicted, shift), ..part.predicted };
+            interval_cost(&track, part.index, &predicted, 3e-4) < 0.1
+        }));
+    }
+}

@@ -14,6 +14,7 @@ use super::surroundings;
 use super::tick::{self, Vote};
 use crate::effect::EffectError;
 use crate::plant::Plant;
+use crate::trace::Commands;
 
 /// Why there is nothing to study.
 #[derive(Debug, thiserror::Error)]
@@ -128,6 +129,10 @@ fn find_edge_sigma(subjects: &mut [Subject], nominal: &[Prediction], run: usize)
 /// The grids of a recording: one for all where all signals lie on it, else one for each beat.
 fn grids(recording: &Recording) -> [Arc<Grid>; 3] {
     let [fast, slow, edges] = &recording.stamps;
+    if recording.header.commands == Commands::Sampled {
+        // The rows of a table say of commands and reports alike when they were: there is nothing to rebuild.
+        return Beat::ALL.map(|beat| Arc::new(Grid::of_rows(&recording.stamps[beat as usize])));
+    }
     let mut all: Vec<f64> = recording.stamps.concat();
     all.sort_by(f64::total_cmp);
     all.dedup();
