@@ -71,12 +71,13 @@ mod tests {
     #[test]
     fn on_a_servo_axis_the_loop_sees_the_motor() {
         let gap = spec("transmission", "backlash", None, &[("gap", 0.002)]);
-        let mut axis = with("ServoAxis", &[], &[gap]);
+        let mut axis = with("ServoAxis", &[("forceLimit", "1000000")], &[gap]);
         axis.check(&[("positionTarget", 0.1)], 5.0, &[("force", 0.0), ("velocity", 0.0)]);
-        // The loop overshoots by 0.11 %: the load stands half the gap before the motor's farthest point.
-        let overshoot = 0.1 * (-std::f64::consts::PI * 21.25 / (1000.0_f64 - 21.25 * 21.25).sqrt()).exp();
-        let _ = overshoot;
+        // x'' + 42.5·x' + 1000·x = 1000·0.1: the motor passes its target by e^(−π·σ/ω) of the way, and comes back to short of
+        // it by the square of that; from there it leaves the load standing, half the gap ahead.
+        let (decay, turn) = (21.25_f64, (1000.0 - 21.25_f64 * 21.25).sqrt());
+        let back = 0.1 * (1.0 - (-2.0 * std::f64::consts::PI * decay / turn).exp());
         let load = axis.report("position");
-        assert!((0.099..0.1011).contains(&load), "{load}");
+        assert!((load - (back + 0.001)).abs() < 1e-6, "{load} {back}");
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: the transport delay of linear control theory, e^(−s·time) (K. J. Åström, T. Hägglund, Advanced PID Control,
 //! ISA 2006, section 2.5). Before the first input the signal holds what it held at the start. A measured quantity is
-//! looked up on straight lines between samples a millisecond apart.
+//! looked up on straight lines between samples a millisecond apart; a step of a command or a report is late by `time` exactly.
 
 use super::line::{History, Mail};
 use super::table::{BASE, time};
@@ -105,6 +105,25 @@ mod tests {
         belt.check(&[], 0.0001, &[("driveEnabled", 1.0)]);
         belt.check(&[], 0.0999, &[("driveEnabled", 1.0)]);
         belt.check(&[], 0.0001, &[("driveEnabled", 0.0)]);
+    }
+
+    /// A step of a report that comes by itself, between all looks at the device, is late by its time and no more.
+    #[test]
+    fn a_step_is_late_by_its_time_to_the_microsecond_whatever_the_spans() {
+        // Extended but for 2 mm after 0.996 s.
+        for time in [0.0137, 0.013_71, 0.2] {
+            for span in [1.0 / 3.0, 0.0171, 0.02] {
+                let late = spec("report-link", "dead-time", Some("limitExtended"), &[("time", time)]);
+                let mut pusher = with("Pusher", &[], &[late]);
+                pusher.check(&[("command", 1.0)], 0.0, &[]);
+                let (whole, end) = (((0.996 + time - 1e-6) / span).floor(), 0.996 + time);
+                for _ in 0..whole as u32 {
+                    pusher.device.advance(span);
+                }
+                pusher.check(&[], end - 1e-6 - whole * span, &[("limitExtended", 0.0)]);
+                pusher.check(&[], 2e-6, &[("limitExtended", 1.0)]);
+            }
+        }
     }
 
     #[test]
