@@ -2,6 +2,7 @@
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -9,15 +10,16 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::locate::{masks, open};
 use super::output::write_whole;
 use super::signals::Interruption;
-use super::{Answer, Failure};
+use super::{Answer, Failure, words};
 use crate::effect;
 use crate::gap::cause::Progress;
 use crate::gap::diagnosis::{self, Diagnosis, Options, Split};
 use crate::gap::page::page;
-use crate::gap::report::{MadeFrom, Report};
+use crate::gap::production::{self, Counters, Observation};
+use crate::gap::report::{Consequence, MadeFrom, Report};
 use crate::gap::{Recording, effects_xml};
-use crate::plant::{Plant, effects_file};
-use crate::run::{Stop, model};
+use crate::plant::{ModelError, Plant, effects_file};
+use crate::run::{self, Stop, model, observe};
 
 /// Says where the model parts from the machine, which unmodelled effect causes it, and how far the gap shrinks with it.
 ///
@@ -78,6 +80,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
         paths.iter().map(recording).collect::<Result<Vec<_>, _>>()
     };
     let (train, holdout) = (read(&arguments.train)?, read(&arguments.holdout)?);
+    let recorded = train.iter().max_by(|a, b| a.ends.total_cmp(&b.ends)).cloned();
     let Split { train, held_out } = match holdout.is_empty() {
         true => diagnosis::kept_back(&train),
         false => Split { train, held_out: holdout },
@@ -93,9 +96,39 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
         is_stopped: &|| interruption.is_asked(),
         tell: &|progress| show(&bar, progress),
     };
-    let answer = diagnosis::diagnose(&plant, &train, &held_out, &options).map_err(|error| Failure::of(&error))?;
+    let mut answer = diagnosis::diagnose(&plant, &train, &held_out, &options).map_err(|error| Failure::of(&error))?;
     bar.finish_and_clear();
+    if let Some(recorded) = recorded {
+        answer.report.consequence = consequence(&plant, &answer.report, &recorded)?;
+    }
     write(&plant, arguments, answer)
+}
+
+/// The longest span of simulated time over which production is compared.
+const LONGEST_PRODUCTION_S: f64 = 600.0;
+
+/// What the causes of `report` mean for production: the model runs with its automation, without and with them, as long as the
+/// machine was recorded. `None` without a cause, or where the machine was driven by another automation.
+fn consequence(plant: &Plant, report: &Report, recorded: &Recording) -> Result<Option<Consequence>, Failure> {
+    let Some(text) = effects_xml(report, &plant.name) else { return Ok(None) };
+    let counters = Counters::of(plant);
+    let span = recorded.ends.min(LONGEST_PRODUCTION_S);
+    let seed = recorded.header.seed.unwrap_or_default();
+    let run = |plant: &Plant| {
+        observe(plant.clone(), Duration::from_secs_f64(span), seed, run::Options::STEP).map_err(Failure::from)
+    };
+    let recorded = Observation::of(plant, recorded, span);
+    let before = run(plant)?;
+    if !production::is_driven_alike(&recorded, &before) {
+        return Ok(None);
+    }
+    let mut corrected = plant.clone();
+    let added = effects_file::read("effects.xml", &text).map_err(ModelError::Faulty)?.effects;
+    for addition in added {
+        let named = corrected.instances.iter_mut().find(|instance| instance.name == addition.instance.value);
+        named.into_iter().for_each(|instance| instance.effects.push(addition.effect.clone()));
+    }
+    Ok(production::consequence(&counters, &recorded, &before, &run(&corrected)?))
 }
 
 /// The effects to look for; `None` for all.
@@ -159,9 +192,9 @@ fn write(plant: &Plant, arguments: &DiagnoseArguments, answer: Diagnosis) -> Res
     put(arguments, "report.html", &page(&report, &evidence))?;
     put(arguments, "effects.xml", &effects.unwrap_or_else(none))?;
     if arguments.json {
-        println!("{}", serde_json::to_string(&report)?);
+        words::answer_line(serde_json::to_string(&report)?)?;
     } else {
-        print!("{}", summary(&report));
+        words::answer(summary(&report))?;
     }
     Ok(Answer::Yes)
 }

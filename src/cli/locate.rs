@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::Args;
 use serde::Serialize;
 
-use super::{Answer, Failure};
+use super::{Answer, Failure, words};
 use crate::gap::{Beat, Located, LocatedSignal, Location, Recording, Span, Study, locate, read_mask};
 use crate::plant::Plant;
 use crate::replay::{self, Survey, Tolerances};
@@ -110,9 +110,9 @@ pub fn run(arguments: &LocateArguments) -> Result<Answer, Failure> {
     let heard: Vec<Heard<'_>> =
         recordings.iter().enumerate().map(|(at, recording)| heard(at, recording, &study)).collect();
     if arguments.json {
-        println!("{}", serde_json::to_string(&Answered { recordings: heard, location: &location })?);
+        words::answer_line(serde_json::to_string(&Answered { recordings: heard, location: &location })?)?;
     } else {
-        print!("{}", text(&heard, &location));
+        words::answer(text(&heard, &location))?;
     }
     Ok(if location.devices.iter().any(|device| device.own) { Answer::No } else { Answer::Yes })
 }

@@ -12,9 +12,11 @@
 
 use std::collections::BTreeMap;
 
+use super::Recording;
 use super::report::{Beside, Consequence, DeviceConsequence};
 use crate::plant::{Instance, Plant};
-use crate::signal_map::RegisterId;
+use crate::signal_map::{Direction, RegisterId};
+use crate::value::{ElementaryType, SignalType};
 
 /// The least events that make a cycle: two intervals.
 const LEAST_EVENTS: usize = 3;
@@ -36,8 +38,36 @@ pub type Changes = Vec<(f64, bool)>;
 pub struct Observation {
     /// Of the boolean reports.
     pub changes: BTreeMap<RegisterId, Changes>,
-    /// The values that each command took, one after the other, none twice in a row.
+    /// The values that each command took, SI, one after the other, none twice in a row; the first is 0.
     pub commands: BTreeMap<RegisterId, Vec<f64>>,
+}
+
+impl Observation {
+    /// What a recording of `plant` holds up to `ends`, s.
+    pub fn of(plant: &Plant, recording: &Recording, ends: f64) -> Observation {
+        let mut observed = Observation::default();
+        for (index, signal) in plant.signal_map.signals().iter().enumerate() {
+            let register = RegisterId(index as u32);
+            let values = recording.values(register).iter().take_while(|stamped| stamped.at <= ends);
+            match signal.direction {
+                Direction::Command => {
+                    // Every command is 0 until a line says otherwise.
+                    let mut all = vec![0.0];
+                    all.extend(values.map(|stamped| stamped.value));
+                    all.dedup();
+                    observed.commands.insert(register, all);
+                }
+                Direction::Report if signal.ty == SignalType::scalar(ElementaryType::Bool) => {
+                    let mut changes: Changes = values.map(|stamped| (stamped.at, stamped.value != 0.0)).collect();
+                    changes.dedup_by_key(|(_, is)| *is);
+                    // What a recording begins with is no change.
+                    observed.changes.insert(register, changes.split_off(changes.len().min(1)));
+                }
+                Direction::Report => {}
+            }
+        }
+        observed
+    }
 }
 
 /// What a plant brought forth in a recording or in a run.
@@ -150,11 +180,11 @@ const ALIKE: f64 = 0.9;
 
 /// Whether the commands of a recording are those of the automation that gave `run`'s: command by command the same values in
 /// the same order, as far as both go.
-fn is_driven_alike(recorded: &Observation, run: &Observation) -> bool {
+pub fn is_driven_alike(recorded: &Observation, run: &Observation) -> bool {
     let (mut same, mut all) = (0, 0);
     for (register, values) in &recorded.commands {
         let Some(ours) = run.commands.get(register) else { continue };
-        // The first value is what the session began with: all commands at 0.
+        // The first value is 0 on both sides.
         let pairs = values.iter().zip(ours).skip(1);
         all += pairs.len();
         same += pairs.filter(|(theirs, ours)| (*theirs - *ours).abs() <= 1e-6 * ours.abs().max(1.0)).count();

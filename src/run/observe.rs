@@ -7,6 +7,7 @@ use super::stepped::Stepper;
 use super::{Options, RunError};
 use crate::gap::production::Observation;
 use crate::plant::Plant;
+use crate::prototype::quantity::to_si;
 use crate::signal_map::{Direction, RegisterId};
 use crate::value::Value;
 
@@ -34,7 +35,9 @@ pub fn observe(plant: Plant, duration: Duration, seed: u64, step: Duration) -> R
             let register = RegisterId(index as u32);
             match (plant.signal_map.signal(register).direction, value) {
                 (Direction::Command, value) => {
-                    observed.commands.entry(register).or_default().extend(value.to_f64());
+                    let taken = observed.commands.entry(register).or_insert_with(|| vec![0.0]);
+                    let si = value.to_f64().map(|it| to_si(it, plant.signal_map.signal(register).unit));
+                    taken.extend(si.filter(|si| taken.last() != Some(si)));
                 }
                 // What a plant begins with is no change.
                 (Direction::Report, Value::Bool(is)) if !first => {
