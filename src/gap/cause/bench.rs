@@ -148,6 +148,21 @@ impl Bench<'_> {
         })
     }
 
+    /// How far `set`, with all that is free beside it, stays from `output` when it is fitted to it: whitened and squared.
+    /// `at` is where the fit begins.
+    pub fn distance(&self, output: &Prediction, set: &[Candidate], at: &[f64]) -> Option<f64> {
+        let apart = |at: &[f64]| {
+            let mut residuals = self.subject.apart(output, &self.predict(set, at)?);
+            residuals.extend(self.strain(set, at));
+            (!self.is_stopped()).then_some(residuals)
+        };
+        let ranges = self.ranges(set);
+        if ranges.is_empty() {
+            return Some(fit::sum_of_squares(&apart(at)?));
+        }
+        Some(fit::least_squares(&apart, at, &ranges, 10 + 8 * ranges.len() as u32)?.cost)
+    }
+
     /// The deviance of each block of time of all runs.
     pub fn blocks(&self, score: &Score) -> Vec<f64> {
         let counts = self.subject.runs.iter().map(|run| (run.ends / BLOCK_S).ceil().max(1.0) as usize);

@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Tell, handicap, rung};
-use crate::gap::fit::{least_squares, sum_of_squares};
 use crate::gap::statistics::{Draws, SAME_CLASS};
 use crate::plant::EffectPlace;
 
@@ -114,15 +113,7 @@ fn without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial> {
 /// Fits the candidate with all else to the answer's own output.
 fn alternative(bench: &Bench<'_>, best: &Trial, named: &Candidate, trial: Trial) -> Option<Alternative> {
     let output = bench.predict(&best.set, &best.at)?;
-    let apart = |at: &[f64]| {
-        let mut residuals = bench.subject.apart(&output, &bench.predict(&trial.set, at)?);
-        residuals.extend(bench.strain(&trial.set, at));
-        (!bench.is_stopped()).then_some(residuals)
-    };
-    let distance = match trial.ranges.is_empty() {
-        true => sum_of_squares(&apart(&trial.at)?),
-        false => least_squares(&apart, &trial.at, &trial.ranges, 10 + 8 * trial.ranges.len() as u32)?.cost,
-    };
+    let distance = bench.distance(&output, &trial.set, &trial.at)?;
     let last = trial.set.last()?;
     let is_same = distance < SAME_CLASS * best.inflation() && last.free.len() <= named.free.len();
     Some(Alternative { trial, distance, is_same, weight: 0.0 })

@@ -26,7 +26,7 @@ use script::{Channel, channels};
 
 use super::cause::{Bench, nuisances};
 use super::cost::normal;
-use super::fit::{least_squares, sum_of_squares};
+use super::fit::sum_of_squares;
 use super::report::{Member, Report};
 use super::{Recording, Study, StudyError, Subject};
 use crate::engine::BuildError;
@@ -177,18 +177,9 @@ fn distance(subject: &Subject, pair: &Pair) -> Option<f64> {
         return None;
     }
     let set = &pair.rival.set;
-    let ranges = bench.ranges(set);
     let mut at = pair.rival.at.clone();
     at.extend(bench.nominal(set));
-    let apart = |at: &[f64]| {
-        let mut residuals = subject.apart(&output, &bench.predict(set, at)?);
-        residuals.extend(bench.strain(set, at));
-        Some(residuals)
-    };
-    if ranges.is_empty() {
-        return Some(sum_of_squares(&apart(&at)?));
-    }
-    Some(least_squares(&apart, &at, &ranges, 10 + 8 * ranges.len() as u32)?.cost)
+    bench.distance(&output, set, &at)
 }
 
 /// The motion that parts the closest pair best; then, while a pair is not parted, the one that adds most to it.
