@@ -51,7 +51,7 @@ pub struct Located {
     /// The greatest of its statistics, which a chance keeps below [`THRESHOLD`].
     pub evidence: f64,
     pub signals: Vec<LocatedSignal>,
-    /// Where in its motion the gap of its worst level lies, the largest share first; empty without a gap of its own.
+    /// In which regimes its gap lies; empty without a gap of its own.
     pub regimes: Vec<Regime>,
 }
 

@@ -1,8 +1,8 @@
 //! Recordings that no fit saw: opened once, to measure.
 
 use super::Finding;
-use super::regimes::regimes;
 use super::shrink::{Squares, shrink};
+use crate::gap::regimes::regimes;
 use crate::gap::report::{DeviceGap, EdgeCounts, Gap, Report, SignalGap, SignalKind, Verdict};
 use crate::gap::{Overrides, Recording, Score, SignalScore, Span, Study, Subject};
 use crate::plant::Plant;

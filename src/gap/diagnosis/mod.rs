@@ -6,7 +6,6 @@
 
 mod finding;
 mod held_out;
-mod regimes;
 mod shrink;
 mod verdict;
 mod words;
