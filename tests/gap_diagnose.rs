@@ -4,13 +4,15 @@
 
 use std::fs::File;
 use std::io::BufReader;
+use std::time::Duration;
 
 use kinetwin::gap::Recording;
 use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose, kept_back};
 use kinetwin::gap::report::{Report, Verdict};
 use kinetwin::plant::Plant;
 use kinetwin::run::model;
-use kinetwin::trace::Reader;
+use kinetwin::time::Instant;
+use kinetwin::trace::{self, Compression, Reader};
 
 const DOZEN: [&str; 12] = [
     "dead-time",
@@ -143,6 +145,29 @@ fn without_held_out_recordings_spans_are_kept_back() {
     for at in [0.01, 0.3, 0.5, 0.8].map(|share| share * ends) {
         assert!(split.train[0].is_blind(at) != split.held_out[0].is_blind(at), "{at}");
     }
+}
+
+/// The first seconds of a recording, in which the robot moves once.
+#[test]
+fn a_gap_in_too_little_motion_is_not_testable() {
+    let plant = model::load("models/rig").expect("the rig");
+    let path = "../shared/data/rig-sample/case-05/train.cps.jsonl.zst";
+    let read = || Reader::new(path, BufReader::new(File::open(path).expect("a trace"))).expect("a trace");
+    let span = trace::Span { from: Instant::ZERO, to: Instant::from_seconds(3.0), warm_up: Duration::ZERO };
+    let cut = trace::cut(read(), Vec::new(), Compression::None, span).expect("a cut");
+    let train = Recording::read(&plant, "cut", Reader::new("cut", &cut[..]).expect("a trace"), &[]).expect("a trace");
+    let holdout = vec![recording(&plant, 5, "holdout")];
+    let options = Options {
+        is_asked: &|id| DOZEN.contains(&id),
+        is_meant: &|name| name == "Robot",
+        is_stopped: &|| false,
+        tell: &|_| {},
+    };
+    let report = diagnose(&plant, &[train], &holdout, &options).expect("a diagnosis").report;
+    assert_eq!(report.verdict, Verdict::NotTestable, "{}", report.to_json());
+    let said = &report.not_testable[0];
+    assert!(said.device.as_deref() == Some("Robot") && said.needs.contains("8 s"), "{said:?}");
+    assert_eq!(report.flaws(), Vec::<String>::new());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `kinetwin gap diagnose`: where the gap is, which effect causes it, and how far it shrinks.
 
+use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -16,10 +17,11 @@ use crate::gap::cause::Progress;
 use crate::gap::diagnosis::{self, Diagnosis, Options, Split};
 use crate::gap::page::page;
 use crate::gap::production::{self, Counters, Observation};
-use crate::gap::report::{Consequence, MadeFrom, Report};
+use crate::gap::report::{Consequence, MadeFrom, NotTestable, Report};
 use crate::gap::{Recording, effects_xml};
 use crate::plant::{ModelError, Plant, effects_file};
 use crate::run::{self, Stop, model, observe};
+use crate::trace;
 
 /// Says where the model parts from the machine, which unmodelled effect causes it, and how far the gap shrinks with it.
 ///
@@ -101,7 +103,43 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
     if let Some(recorded) = recorded {
         answer.report.consequence = consequence(&plant, &answer.report, &recorded)?;
     }
+    answer.report.left_out.iter().for_each(|words| words::tell(format_args!("warning: {words}")));
+    let is_meant = |name: &str| devices.as_ref().is_none_or(|meant| meant.iter().any(|device| device == name));
+    let not_excited = not_excited(&plant, &answer.report, &arguments.train, &is_meant)?;
+    answer.report.not_testable.extend(not_excited);
     write(&plant, arguments, answer)
+}
+
+/// Effects that no training trace excites, of the devices with a gap; of all devices where none has one: what a `no-gap` does not
+/// speak of.
+fn not_excited(
+    plant: &Plant,
+    report: &Report,
+    train: &[PathBuf],
+    is_meant: &dyn Fn(&str) -> bool,
+) -> Result<Vec<NotTestable>, Failure> {
+    let mut lacks: Option<BTreeSet<(String, &'static str, &'static str)>> = None;
+    for path in train {
+        let info = trace::info(open(path)?).map_err(|error| Failure::of(&error))?;
+        let motions = trace::motions(open(path)?, &info).map_err(|error| Failure::of(&error))?;
+        let devices = trace::excitations(plant, &info, &motions);
+        let here = devices
+            .iter()
+            .flat_map(|device| device.lacks.iter().map(|(effect, needs)| (device.device.clone(), *effect, *needs)));
+        let here: BTreeSet<_> = here.collect();
+        lacks = Some(lacks.map_or(here.clone(), |all| all.intersection(&here).cloned().collect()));
+    }
+    let has_gap = |device: &str| report.devices.is_empty() || report.devices.iter().any(|gap| gap.device == device);
+    let is_asked = |device: &str| is_meant(device) && has_gap(device);
+    let lacks = lacks.unwrap_or_default().into_iter().filter(|(device, _, _)| is_asked(device));
+    let entry = |(device, effect, needs): (String, &str, &str)| NotTestable {
+        device: Some(device),
+        effect: Some(effect.to_owned()),
+        reason: "the training does not excite it".to_owned(),
+        needs: needs.to_owned(),
+        ..NotTestable::default()
+    };
+    Ok(lacks.map(entry).collect())
 }
 
 /// The longest span of simulated time over which production is compared.

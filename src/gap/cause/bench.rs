@@ -8,7 +8,7 @@ use crate::gap::{Overrides, Predicted, Prediction, Score, Subject};
 use crate::plant::EffectSpec;
 
 /// The length of a block of time, s: at least some correlation times of a residual.
-const BLOCK_S: f64 = 2.0;
+pub const BLOCK_S: f64 = 2.0;
 
 /// A device, and what all fits of it have in common.
 pub struct Bench<'a> {

@@ -49,6 +49,8 @@ pub struct Ladder {
     pub singles: Vec<Trial>,
     /// How many candidates were tried in all.
     pub tried: usize,
+    /// In how many blocks of time the gap lies that an effect would explain, where they are too few to be sure of it.
+    pub too_few_blocks: Option<f64>,
 }
 
 impl Ladder {
@@ -72,7 +74,7 @@ pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: 
     let prediction = bench.predict(&[], &bare.at)?;
     let score = bench.subject.score(&prediction);
     let floor = floor(&score);
-    let mut ladder = Ladder { best: bare.clone(), bare, floor, singles: Vec::new(), tried: 0 };
+    let mut ladder = Ladder { best: bare.clone(), bare, floor, singles: Vec::new(), tried: 0, too_few_blocks: None };
     if ladder.excess() < least_gain(1, 1) {
         return Some(ladder);
     }
@@ -108,8 +110,27 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let is_worth_it = is_worth_having(bench, &below, &next, ladder);
     if is_worth_it {
         ladder.best = next;
+    } else if is_first {
+        ladder.too_few_blocks = too_few_blocks(&below, &next, ladder);
     }
     is_worth_it
+}
+
+/// Below this share of the excess an effect would not be the answer, however sure.
+const SHARE_OF_AN_ANSWER: f64 = 0.3;
+/// In fewer blocks than this a gain is not sure: by the bootstrap, of k blocks among many all are missed with the chance e^-k, and a
+/// lower bound of 2.5 % needs k = 3.7.
+const LEAST_BLOCKS: f64 = 3.7;
+
+/// How many blocks hold what `next` gains over `below`, where it gains enough to be the answer and they are too few to be sure.
+fn too_few_blocks(below: &Trial, next: &Trial, ladder: &Ladder) -> Option<f64> {
+    let gains: Vec<f64> = below.blocks.iter().zip(&next.blocks).map(|(below, next)| (below - next).max(0.0)).collect();
+    let (sum, squares) = gains.iter().fold((0.0, 0.0), |(sum, squares), gain| (sum + gain, squares + gain * gain));
+    let further = next.parameters() - below.parameters();
+    let gains_enough = below.cost - next.cost >= least_gain(further, ladder.tried) * next.inflation();
+    let blocks = sum * sum / f64::max(squares, f64::MIN_POSITIVE);
+    let explains = (below.cost - next.cost) / ladder.excess().max(1.0);
+    (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
 }
 
 /// Every candidate beside the effects of `below`, those held as they are; the best first.

@@ -12,7 +12,7 @@ mod scales;
 mod scan;
 mod starts;
 
-pub use bench::{Bench, Trial};
+pub use bench::{BLOCK_S, Bench, Trial};
 pub use candidate::{Candidate, Free};
 pub use class::{Alternative, Answer, answers, plainness};
 pub use intervals::{Bounds, intervals};

@@ -13,6 +13,8 @@ use crate::plant::EffectSpec;
 pub enum Conclusion {
     /// The model explains them down to the noise, within its tolerances.
     NoGap,
+    /// They hold a gap that something in the library explains, in too little motion to be sure of it.
+    TooShort,
     /// They hold a gap of which nothing in the library explains a part worth having.
     Unknown,
     /// An effect explains a part, and a remainder is left.
@@ -42,7 +44,7 @@ impl Finding {
     pub fn specs(&self) -> Vec<EffectSpec> {
         match self.conclusion {
             Conclusion::Partial | Conclusion::Explained => self.ladder.best.specs(),
-            Conclusion::NoGap | Conclusion::Unknown => Vec::new(),
+            Conclusion::NoGap | Conclusion::TooShort | Conclusion::Unknown => Vec::new(),
         }
     }
 }
@@ -74,7 +76,8 @@ pub(super) fn find(
     if finding.ladder.best.set.is_empty() {
         if has_gap {
             finding.remainder = remainder(&bench, &finding.ladder)?;
-            finding.conclusion = Conclusion::Unknown;
+            let is_too_short = finding.ladder.too_few_blocks.is_some();
+            finding.conclusion = if is_too_short { Conclusion::TooShort } else { Conclusion::Unknown };
         }
         return Some(finding);
     }

@@ -13,7 +13,7 @@ mod words;
 pub use finding::{Conclusion, Finding};
 pub use held_out::{Split, kept_back};
 
-use super::cause::Tell;
+use super::cause::{BLOCK_S, Tell};
 use super::page::{Added, Evidence, gather};
 use super::report::{NotTestable, Report, SignalNames};
 use super::{Overrides, Recording, Study, StudyError};
@@ -88,6 +88,8 @@ pub fn diagnose(
     measured.fill(&mut report);
     report.incomplete = (options.is_stopped)();
     report.signals = signal_names(train);
+    report.left_out = left_out(train);
+    report.not_testable.extend(too_short(&study, &findings));
     report.not_testable.extend(still(&study));
     Ok(Diagnosis { report, findings, held_out })
 }
@@ -101,6 +103,37 @@ fn signal_names(train: &[Recording]) -> SignalNames {
         names.dedup();
     }
     SignalNames { missing, ignored }
+}
+
+/// What else of the traces was left out.
+fn left_out(train: &[Recording]) -> Vec<String> {
+    let of = |recording: &Recording| {
+        let torn = recording.torn.iter().cloned();
+        let notices = recording.notices.iter().map(|(words, count)| match count {
+            1 => format!("{}: {words}", recording.name),
+            _ => format!("{}: {words} ({count} times)", recording.name),
+        });
+        notices.chain(torn).collect::<Vec<_>>()
+    };
+    train.iter().flat_map(of).collect()
+}
+
+/// Devices whose gap something in the library explains, in too little motion to be sure of it.
+fn too_short(study: &Study, findings: &[Finding]) -> Vec<NotTestable> {
+    let short = findings.iter().filter(|finding| finding.conclusion == Conclusion::TooShort);
+    let entry = |finding: &Finding| {
+        let blocks = finding.ladder.too_few_blocks.unwrap_or_default();
+        NotTestable {
+            device: Some(study.subjects[finding.subject].name.clone()),
+            reason: format!(
+                "it has a gap, and all that shows it lies within {:.0} s of motion: too little to say which effect it is",
+                (blocks * BLOCK_S).ceil()
+            ),
+            needs: format!("a recording in which it moves like that for {:.0} s or more", 4.0 * BLOCK_S),
+            ..NotTestable::default()
+        }
+    };
+    short.map(entry).collect()
 }
 
 /// Devices that never move in the training: nothing can be said of them.

@@ -4,12 +4,11 @@
 //! edge 1 and the mean of what its edges cost above the floor, so that a signal at its floor counts 1 and metres, counts and
 //! booleans can be put in one figure. The plant's gap is the root of the mean over its signals.
 
+use crate::gap::cause::BLOCK_S;
 use crate::gap::report::{Gap, NormalisedRms, Shrink};
 use crate::gap::statistics::{Draws, quantile};
 use crate::gap::{Score, SignalScore, Subject};
 
-/// The length of a block of time, s.
-const BLOCK_S: f64 = 2.0;
 const DRAWS: usize = 400;
 
 /// The squares of all signals above their floors, block by block of time.

@@ -28,6 +28,7 @@ pub(super) fn verdict(study: &Study, findings: &[Finding]) -> Verdict {
     let some = |conclusion: Conclusion| findings.iter().any(|finding| finding.conclusion == conclusion);
     let explains = some(Conclusion::Explained) || some(Conclusion::Partial);
     match () {
+        () if some(Conclusion::TooShort) && !some(Conclusion::Unknown) && !explains => Verdict::NotTestable,
         () if !some(Conclusion::Unknown) && !explains => {
             if study.subjects.iter().any(moves) {
                 Verdict::NoGap
@@ -36,7 +37,7 @@ pub(super) fn verdict(study: &Study, findings: &[Finding]) -> Verdict {
             }
         }
         () if !explains => Verdict::Unknown,
-        () if some(Conclusion::Partial) || some(Conclusion::Unknown) => Verdict::Partial,
+        () if some(Conclusion::Partial) || some(Conclusion::Unknown) || some(Conclusion::TooShort) => Verdict::Partial,
         () if findings.iter().any(is_ambiguous) => Verdict::Ambiguous,
         () => Verdict::Effect,
     }
@@ -60,7 +61,7 @@ pub(super) fn fill(report: &mut Report, plant: &Plant, study: &Study, findings: 
     let explaining =
         || findings.iter().filter(|finding| matches!(finding.conclusion, Conclusion::Explained | Conclusion::Partial));
     let certainty = findings.iter().map(|finding| match finding.conclusion {
-        Conclusion::Unknown => 1.0,
+        Conclusion::Unknown | Conclusion::TooShort => 1.0,
         _ if finding.remainder.is_significant => finding.remainder.certainty,
         _ => 0.0,
     });
@@ -106,7 +107,7 @@ fn remainder(findings: &[Finding]) -> Remainder {
     let with_gap = || findings.iter().filter(|finding| finding.has_gap());
     let all: f64 = with_gap().map(|finding| finding.misfit).sum();
     let left = |finding: &Finding| match finding.conclusion {
-        Conclusion::Unknown => finding.misfit,
+        Conclusion::Unknown | Conclusion::TooShort => finding.misfit,
         _ => finding.misfit * finding.remainder.share,
     };
     let mut depends_on: Vec<String> = Vec::new();

@@ -147,16 +147,20 @@ pub(super) fn consequence(report: &Report) -> String {
 
 /// What these traces do not excite, and signals on which model and trace do not agree.
 pub(super) fn not_testable(report: &Report) -> String {
-    let row = |entry: &crate::gap::report::NotTestable| {
+    // What the same words say of several effects of a device is one row.
+    let mut rows: Vec<[String; 4]> = Vec::new();
+    for entry in &report.not_testable {
         let device = entry.device.as_deref().map(|device| on(device, entry.component.as_deref()));
-        vec![
-            device.unwrap_or_else(|| "all devices".to_owned()),
-            entry.effect.as_deref().map_or_else(|| "all effects".to_owned(), words),
-            entry.reason.clone(),
-            entry.needs.clone(),
-        ]
-    };
-    let rows: Vec<Vec<String>> = report.not_testable.iter().map(row).collect();
+        let effect = entry.effect.as_deref().map_or_else(|| "all effects".to_owned(), words);
+        let row =
+            [device.unwrap_or_else(|| "all devices".to_owned()), effect, entry.reason.clone(), entry.needs.clone()];
+        let same = rows.iter_mut().find(|other| (&other[0], &other[2], &other[3]) == (&row[0], &row[2], &row[3]));
+        match same {
+            Some(same) => same[1] = format!("{}, {}", same[1], row[1]),
+            None => rows.push(row),
+        }
+    }
+    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
     let mut out = table(&["device", "effect", "why not", "needed"], &rows);
     let mut list = |what: &str, names: &[String]| {
         if !names.is_empty() {
@@ -165,6 +169,7 @@ pub(super) fn not_testable(report: &Report) -> String {
     };
     list("Signals of the model that were not recorded", &report.signals.missing);
     list("Recorded signals that the model does not have, left out", &report.signals.ignored);
+    list("Left out beside that", &report.left_out);
     if out.is_empty() { out } else { format!("<section>\n<h2>What could not be tested</h2>\n{out}</section>\n") }
 }
 

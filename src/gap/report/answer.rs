@@ -39,7 +39,10 @@ impl Report {
         let depends = depends.map(|rest| format!(", which depends on {}", rest.depends_on.join(" and ")));
         match self.verdict {
             Verdict::NotTestable => match self.not_testable.first() {
-                Some(first) => format!("{}; needed: {}.", capital(&first.reason), first.needs),
+                Some(first) => {
+                    let device = first.device.as_ref().map(|device| format!("{device}: ")).unwrap_or_default();
+                    format!("{}; needed: {}.", capital(&format!("{device}{}", first.reason)), first.needs)
+                }
                 None => "What would have to be seen is not excited.".to_owned(),
             },
             Verdict::NoGap => "Nothing is to be added.".to_owned(),

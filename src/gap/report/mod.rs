@@ -65,6 +65,9 @@ pub struct Report {
     /// Beyond the contract: what these traces do not excite.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_testable: Vec<NotTestable>,
+    /// Beyond the contract: what else of the traces was left out, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
 }
 
 impl Report {
@@ -85,6 +88,7 @@ impl Report {
             made_from: None,
             signals: SignalNames::default(),
             not_testable: Vec::new(),
+            left_out: Vec::new(),
         }
     }
 }
