@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{Answer, Failure, words};
-use crate::gap::{Beat, Located, LocatedSignal, Location, Recording, Span, Study, locate, read_mask};
+use crate::gap::{Beat, ClockOffset, Located, LocatedSignal, Location, Recording, Span, Study, locate, read_mask};
 use crate::plant::Plant;
 use crate::replay::{self, Survey, Tolerances};
 use crate::run::{Options, model};
@@ -86,6 +86,8 @@ struct Heard<'a> {
     /// Signals that were left out, and why.
     ignored: &'a BTreeMap<String, String>,
     /// What was left out beside that, and how often.
+    /// How far clocks beside that of the commands are off.
+    clocks: &'a [ClockOffset],
     notices: &'a BTreeMap<String, u64>,
     torn: Option<&'a str>,
 }
@@ -135,15 +137,15 @@ fn whole(plant: &Plant, path: &Path, recording: &Recording, study: &Study) -> Re
     let survey = Survey::of(&plant.signal_map, open(path)?).map_err(|error| Failure::of(&error))?;
     let seed = recording.header.seed.unwrap_or_default();
     let mut engine = model::engine(plant, Options::STEP, seed)?;
-    let grid = &study.grids[0][Beat::Edges as usize];
+    let grid = &study.grids[0].main[Beat::Edges as usize];
     // An edge may lie anywhere in its cycle, and its stamp behind that.
     let edge = Duration::from_secs_f64(grid.cycle + 4.0 * grid.lateness + 2e-3);
     let tolerances = Tolerances { edge, ..Tolerances::default() };
     replay::run(&mut engine, &plant.signal_map, &survey, open(path)?, &tolerances).map_err(|error| Failure::of(&error))
 }
 
-fn heard<'a>(at: usize, recording: &'a Recording, study: &Study) -> Heard<'a> {
-    let grid = &study.grids[at][Beat::Fast as usize];
+fn heard<'a>(at: usize, recording: &'a Recording, study: &'a Study) -> Heard<'a> {
+    let grid = &study.grids[at].main[Beat::Fast as usize];
     Heard {
         trace: &recording.name,
         ends_s: recording.ends,
@@ -152,6 +154,7 @@ fn heard<'a>(at: usize, recording: &'a Recording, study: &Study) -> Heard<'a> {
         tick_s: study.ticks[at],
         absent: &recording.absent,
         ignored: &recording.ignored,
+        clocks: &study.clocks[at],
         notices: &recording.notices,
         torn: recording.torn.as_deref(),
     }
@@ -198,6 +201,15 @@ fn heard_text(recording: &Heard<'_>) -> String {
     }
     for (notice, count) in recording.notices {
         note(format!("{notice} ({count} times)"));
+    }
+    for clock in recording.clocks {
+        note(format!(
+            "clock {}: {:+.4} s, {:+.1} ppm of drift, stamps {}",
+            clock.name,
+            clock.offset_s,
+            1e6 * clock.drift,
+            words::counted(clock.devices, "device", "devices")
+        ));
     }
     if let Some(torn) = recording.torn {
         note(torn.to_owned());

@@ -10,6 +10,7 @@ use super::output::{Output, write_whole};
 use super::replay::open;
 use super::{Answer, Failure, words};
 use crate::run::model;
+use crate::signal_map::{Direction, SignalMap};
 use crate::trace::export::{self, Exported};
 use crate::trace::import::{self, Clock, Imported, Mapping, Settings, Shape, Signals, Table, TimeUnit};
 use crate::trace::{self, Commands, Compression, Header, Source, Writer};
@@ -68,6 +69,12 @@ pub struct ImportArguments {
     /// The rows sample commands that moved on straight lines between them; without it, a command holds until the next row
     #[arg(long)]
     pub sampled: bool,
+    /// Reports that another clock stamped than the one of the commands: NAME=SIGNAL,INSTANCE,…; may be given several times
+    ///
+    /// A data logger beside the PLC, say. A diagnosis then finds one offset and one drift for all that this clock stamped; the
+    /// offset may be up to 3 s.
+    #[arg(long = "clock", value_name = "NAME=SIGNAL,...", value_parser = parse_clock)]
+    pub clocks: Vec<(String, Vec<String>)>,
     /// Who stood at the plant's end when it was recorded
     #[arg(long, value_name = "WHO", default_value = "plant")]
     pub source: SourceArgument,
@@ -150,6 +157,16 @@ fn parse_unit(text: &str) -> Result<TimeUnit, String> {
     unit.ok_or_else(|| format!("expected one of {}", TimeUnit::ALL.map(|(symbol, _)| symbol).join(", ")))
 }
 
+fn parse_clock(text: &str) -> Result<(String, Vec<String>), String> {
+    let fields = text.split_once('=').filter(|(name, signals)| !name.is_empty() && !signals.is_empty());
+    let (name, signals) = fields.ok_or_else(|| "expected NAME=SIGNAL, or NAME=SIGNAL,INSTANCE and so on".to_owned())?;
+    let signals: Vec<String> = signals.split(',').map(|signal| signal.trim().to_owned()).collect();
+    if signals.iter().any(String::is_empty) {
+        return Err("a name between two commas is empty".to_owned());
+    }
+    Ok((name.to_owned(), signals))
+}
+
 fn parse_rate(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
@@ -163,6 +180,9 @@ pub fn import(arguments: &ImportArguments) -> Result<Answer, Failure> {
         Some(model) => Some((*model::load(model)?.signal_map).clone()),
         None => None,
     };
+    if let Some(map) = &map {
+        check_clocks(map, &arguments.clocks)?;
+    }
     let settings = Settings {
         maps: arguments.maps.clone(),
         signals: Signals { map, commands: arguments.commands.iter().cloned().collect() },
@@ -180,6 +200,7 @@ pub fn import(arguments: &ImportArguments) -> Result<Answer, Failure> {
         model: arguments.model.clone(),
         note: Some(arguments.note.clone().unwrap_or_else(|| format!("imported from {}", names.join(", ")))),
         commands: if arguments.sampled { Commands::Sampled } else { Commands::Held },
+        clocks: arguments.clocks.iter().cloned().collect(),
         ..Header::default()
     };
     let tables = tables(arguments)?;
@@ -200,6 +221,22 @@ pub fn import(arguments: &ImportArguments) -> Result<Answer, Failure> {
         words::answer(imported_text(&imported, output))?;
     }
     Ok(Answer::Yes)
+}
+
+/// Whether every name of a clock is a report's, or an instance's.
+fn check_clocks(map: &SignalMap, clocks: &[(String, Vec<String>)]) -> Result<(), Failure> {
+    for (clock, names) in clocks {
+        let is_there = |name: &String| {
+            let mut reports = map.directed(Direction::Report);
+            reports.any(|(_, signal)| signal.name == *name || signal.instance == *name)
+        };
+        if let Some(unknown) = names.iter().find(|name| !is_there(name)) {
+            return Err(Failure(format!(
+                "error: --clock {clock}: the model has neither a report nor an instance {unknown:?}; `kinetwin signals-map` lists them"
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn shape(arguments: &ImportArguments) -> Shape {

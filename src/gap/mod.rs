@@ -23,6 +23,7 @@
 mod alone;
 mod apply;
 pub mod cause;
+mod clocks;
 mod cost;
 pub mod diagnosis;
 mod edges;
@@ -53,6 +54,7 @@ mod world;
 #[cfg(doc)]
 use crate::plant::EffectSpec;
 pub use apply::{Applied, apply};
+pub use clocks::ClockOffset;
 pub use cost::{STRAY, STRAY_SPAN_S, unmatched};
 pub use effects::effects_xml;
 pub use floor::{Floor, FloorCosts};

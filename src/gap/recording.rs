@@ -104,6 +104,16 @@ impl Beat {
     }
 }
 
+/// A clock beside that of the commands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherClock {
+    pub name: String,
+    /// The reports that it stamped.
+    pub registers: Vec<RegisterId>,
+    /// As [`Recording::stamps`], of its reports.
+    pub stamps: [Vec<f64>; 3],
+}
+
 /// A trace that cannot be used at all.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
@@ -137,8 +147,11 @@ pub struct Recording {
     pub torn: Option<String>,
     /// Where there is no evidence: the spans declared to [`Recording::read`], and those between two connections.
     pub blind: Vec<Span>,
-    /// The stamps of the plant's lines that held a signal of each [`Beat`], in its order; each stamp once.
+    /// The stamps of the plant's lines that held a signal of each [`Beat`], in its order; each stamp once. Of signals that
+    /// another clock stamped: see [`OtherClock::stamps`].
     pub stamps: [Vec<f64>; 3],
+    /// Other clocks than that of the commands.
+    pub clocks: Vec<OtherClock>,
     /// By register.
     values: Vec<Vec<Stamped>>,
 }
@@ -193,6 +206,56 @@ impl Recording {
         self.values.get(register.index()).map_or(&[], Vec::as_slice)
     }
 
+    /// Gives the reports of `names`, signals or whole instances, to a clock of their own.
+    fn set_apart(&mut self, map: &SignalMap, clock: &str, names: &[String]) {
+        for name in names {
+            if !map.signals().iter().any(|signal| signal.name == *name || signal.instance == *name) {
+                let words = format!("clock {clock}: the model has neither a signal nor an instance {name}");
+                *self.notices.entry(words).or_default() += 1;
+            }
+        }
+        let is_named = |signal: &Signal| names.iter().any(|name| signal.name == *name || signal.instance == *name);
+        let reports = map.directed(Direction::Report).filter(|(_, signal)| is_named(signal));
+        let registers = reports.map(|(register, _)| register).collect();
+        self.clocks.push(OtherClock { name: clock.to_owned(), registers, stamps: Default::default() });
+        self.restamp(map);
+    }
+
+    /// Which of the other clocks stamped a register; `None`: the clock of the commands.
+    pub fn clock_of(&self, register: RegisterId) -> Option<usize> {
+        self.clocks.iter().position(|clock| clock.registers.contains(&register))
+    }
+
+    /// Moves what a clock stamped: what it called `t` was at `at(t)`.
+    pub(super) fn shift(&mut self, map: &SignalMap, clock: usize, at: impl Fn(f64) -> f64) {
+        for register in self.clocks[clock].registers.clone() {
+            self.values[register.index()].iter_mut().for_each(|stamped| stamped.at = at(stamped.at));
+        }
+        self.restamp(map);
+    }
+
+    /// Collects the stamps of every clock anew from the values.
+    fn restamp(&mut self, map: &SignalMap) {
+        let stamps = |wanted: Option<usize>| {
+            Beat::ALL.map(|beat| {
+                let of = map
+                    .directed(Direction::Report)
+                    .filter(|(register, signal)| Beat::of(signal) == beat && self.clock_of(*register) == wanted);
+                let values = of.flat_map(|(register, _)| self.values(register));
+                let mut stamps: Vec<f64> = values.map(|stamped| stamped.at).collect();
+                stamps.sort_by(f64::total_cmp);
+                stamps.dedup();
+                stamps
+            })
+        };
+        let main = stamps(None);
+        let others: Vec<_> = (0..self.clocks.len()).map(|clock| stamps(Some(clock))).collect();
+        self.stamps = main;
+        for (clock, stamps) in self.clocks.iter_mut().zip(others) {
+            clock.stamps = stamps;
+        }
+    }
+
     /// Whether what happened at an instant is no evidence.
     pub fn is_blind(&self, at: f64) -> bool {
         self.blind.iter().any(|span| span.holds(at))
@@ -225,6 +288,7 @@ impl<'a> Reading<'a> {
             torn: None,
             blind: masks.to_vec(),
             stamps: Default::default(),
+            clocks: Vec::new(),
             values: vec![Vec::new(); map.signals().len()],
         };
         Reading { map, recording, last_report: None }
@@ -317,6 +381,10 @@ impl<'a> Reading<'a> {
         if recording.stamps.iter().all(Vec::is_empty) {
             let (name, ignored) = (recording.name, recording.ignored.len());
             return Err(RecordingError::Foreign { name, lines: recording.lines, ignored });
+        }
+        let clocks = recording.header.clocks.clone();
+        for (name, signals) in &clocks {
+            recording.set_apart(map, name, signals);
         }
         let is_absent = |(_, signal): &(usize, &Signal)| !signal.task.is_empty();
         let named = map.signals().iter().enumerate().filter(is_absent);

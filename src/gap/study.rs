@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::clocks::{self, ClockOffset};
 use super::grid::Grid;
 use super::overrides::Overrides;
 use super::prediction::Prediction;
@@ -34,8 +35,10 @@ pub struct Study {
     pub nominal: Vec<Prediction>,
     /// The tick of the machine in each recording, s; 0: none was found.
     pub ticks: Vec<f64>,
-    /// When the machine looked at its state, by recording and [`Beat`].
-    pub grids: Vec<[Arc<Grid>; 3]>,
+    /// When the machine looked at its state, by recording.
+    pub grids: Vec<Grids>,
+    /// How far the other clocks of each recording are off that of its commands.
+    pub clocks: Vec<Vec<ClockOffset>>,
 }
 
 impl Study {
@@ -44,17 +47,28 @@ impl Study {
     /// # Errors
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
+        if recordings.iter().all(|recording| recording.clocks.is_empty()) {
+            return Study::of_one_clock(plant, recordings);
+        }
+        let aligned = recordings.iter().map(|recording| clocks::align(plant, recording));
+        let aligned = aligned.collect::<Result<Vec<_>, _>>()?;
+        let (recordings, offsets): (Vec<Recording>, Vec<_>) = aligned.into_iter().unzip();
+        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings)? })
+    }
+
+    /// The same, of recordings whose stamps are taken as they are.
+    pub(super) fn of_one_clock(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
         if recordings.is_empty() {
             return Err(StudyError::NoRecording);
         }
-        let grids: Vec<[Arc<Grid>; 3]> = recordings.iter().map(grids).collect();
+        let grids: Vec<Grids> = recordings.iter().map(Grids::new).collect();
         let ids = TaskId::all(plant);
         let mut subjects: Vec<Subject> =
             ids.into_par_iter().map(|id| Subject::new(plant, id, recordings, &grids)).collect();
         let mut ticks = Vec::new();
         for (run, recording) in recordings.iter().enumerate() {
             // Steps of ours are no tick to be found.
-            let tick = if recording.step().is_some() { 0.0 } else { find_tick(&mut subjects, run, &grids[run])? };
+            let tick = if recording.step().is_some() { 0.0 } else { find_tick(&mut subjects, run, &grids[run].main)? };
             ticks.push(tick);
         }
         let sizes = surroundings::part_sizes(plant);
@@ -63,7 +77,7 @@ impl Study {
         for run in 0..recordings.len() {
             find_edge_sigma(&mut subjects, &nominal, run);
         }
-        Ok(Study { subjects, nominal, ticks, grids })
+        Ok(Study { subjects, nominal, ticks, grids, clocks: vec![Vec::new(); recordings.len()] })
     }
 
     /// The subject called so.
@@ -126,14 +140,38 @@ fn find_edge_sigma(subjects: &mut [Subject], nominal: &[Prediction], run: usize)
     subjects.iter_mut().for_each(|subject| subject.set_edge_sigma(run, best));
 }
 
-/// The grids of a recording: one for all where all signals lie on it, else one for each beat.
-fn grids(recording: &Recording) -> [Arc<Grid>; 3] {
-    let [fast, slow, edges] = &recording.stamps;
+/// When a machine looked at its state, clock by clock and by [`Beat`].
+#[derive(Clone, Debug)]
+pub struct Grids {
+    /// By the clock of the commands.
+    pub main: [Arc<Grid>; 3],
+    /// By the recording's other clocks, in its order.
+    pub others: Vec<[Arc<Grid>; 3]>,
+}
+
+impl Grids {
+    fn new(recording: &Recording) -> Grids {
+        Grids {
+            main: grids(recording, &recording.stamps),
+            others: recording.clocks.iter().map(|clock| grids(recording, &clock.stamps)).collect(),
+        }
+    }
+
+    /// That of a clock, by its place among the others.
+    pub(super) fn of(&self, clock: Option<usize>, beat: Beat) -> &Arc<Grid> {
+        let grids = clock.and_then(|clock| self.others.get(clock)).unwrap_or(&self.main);
+        &grids[beat as usize]
+    }
+}
+
+/// The grids behind stamps: one for all where all signals lie on it, else one for each beat.
+fn grids(recording: &Recording, stamps: &[Vec<f64>; 3]) -> [Arc<Grid>; 3] {
+    let [fast, slow, edges] = stamps;
     if recording.header.commands == Commands::Sampled {
         // The rows of a table say of commands and reports alike when they were: there is nothing to rebuild.
-        return Beat::ALL.map(|beat| Arc::new(Grid::of_rows(&recording.stamps[beat as usize])));
+        return Beat::ALL.map(|beat| Arc::new(Grid::of_rows(&stamps[beat as usize])));
     }
-    let mut all: Vec<f64> = recording.stamps.concat();
+    let mut all: Vec<f64> = stamps.concat();
     all.sort_by(f64::total_cmp);
     all.dedup();
     if let Some(step) = recording.step() {
@@ -147,5 +185,5 @@ fn grids(recording: &Recording) -> [Arc<Grid>; 3] {
         let one = Arc::new(Grid::rebuild(&all));
         return [one.clone(), one.clone(), one];
     }
-    Beat::ALL.map(|beat| Arc::new(Grid::rebuild(&recording.stamps[beat as usize])))
+    Beat::ALL.map(|beat| Arc::new(Grid::rebuild(&stamps[beat as usize])))
 }

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
 use super::floor::Floor;
-use super::grid::{Grid, median};
+use super::grid::median;
 use super::overrides::Overrides;
 use super::parts::{Barrier, likeliest_shifts};
 use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::score::{Score, SignalScore};
+use super::study::Grids;
 use super::surroundings;
 use super::track::Track;
 use super::world::Script;
@@ -108,8 +109,8 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// The device `id` of `plant` in each of `recordings`, whose grids for each [`Beat`] stand in `grids`.
-    pub(super) fn new(plant: &Plant, id: TaskId, recordings: &[Recording], grids: &[[Arc<Grid>; 3]]) -> Subject {
+    /// The device `id` of `plant` in each of `recordings`, whose grids stand in `grids`.
+    pub(super) fn new(plant: &Plant, id: TaskId, recordings: &[Recording], grids: &[Grids]) -> Subject {
         let (instance, task) = (id.instance(plant), id.task(plant));
         let tasks: Vec<&str> = instance.tasks.iter().map(|task| task.name.as_str()).collect();
         let signals = signals_of(plant, id);
@@ -338,9 +339,9 @@ fn signals_of(plant: &Plant, id: TaskId) -> Vec<SignalInfo> {
     ports(plant, id, Direction::Report).into_iter().map(info).collect()
 }
 
-fn track_of(plant: &Plant, info: &SignalInfo, recording: &Recording, grids: &[Arc<Grid>; 3]) -> Option<Track> {
+fn track_of(plant: &Plant, info: &SignalInfo, recording: &Recording, grids: &Grids) -> Option<Track> {
     let signal = plant.signal_map.signal(info.register);
-    let grid = &grids[Beat::of(signal) as usize];
+    let grid = grids.of(recording.clock_of(info.register), Beat::of(signal));
     let stamped = recording.values(info.register);
     match info.kind {
         Kind::Level => {

@@ -1,5 +1,7 @@
 //! The first line of a trace.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 /// The word that a trace begins with: the format and its version.
@@ -62,6 +64,10 @@ pub struct Header {
     /// What stands between two commands of one level: `held` where the header says nothing, or `sampled`.
     #[serde(default, skip_serializing_if = "Commands::are_held")]
     pub commands: Commands,
+    /// Reports that another clock stamped than the one of the commands, by that clock's name: a data logger beside the PLC. Names
+    /// of signals, or of instances for all of their reports.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub clocks: BTreeMap<String, Vec<String>>,
 }
 
 /// The word that makes it a header.
@@ -119,6 +125,7 @@ mod tests {
             seed: Some(u64::MAX),
             model_hash: Some("0123456789abcdef".to_owned()),
             commands: Commands::Sampled,
+            clocks: BTreeMap::from([("logger".to_owned(), vec!["Belt".to_owned()])]),
         };
         assert_eq!(read_header(&write_header(&header)), Ok(header));
         assert_eq!(write_header(&Header::default()), r#"{"trace":"kinetwin/1","source":"unknown"}"#);

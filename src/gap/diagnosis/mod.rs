@@ -15,8 +15,8 @@ pub use held_out::{Split, kept_back};
 
 use super::cause::{BLOCK_S, Tell};
 use super::page::{Added, Evidence, gather};
-use super::report::{NotTestable, Report, SignalNames};
-use super::{Overrides, Recording, Study, StudyError};
+use super::report::{FoundClock, NotTestable, Report, SignalNames};
+use super::{ClockOffset, Overrides, Recording, Study, StudyError, Subject};
 use crate::effect::EffectError;
 use crate::plant::Plant;
 use held_out::Measured;
@@ -89,6 +89,8 @@ pub fn diagnose(
     report.incomplete = (options.is_stopped)();
     report.signals = signal_names(train);
     report.left_out = left_out(train);
+    report.clocks = found_clocks(&study, train);
+    report.not_testable.extend(lone_clocks(&study, train));
     report.not_testable.extend(too_short(&study, &findings));
     report.not_testable.extend(still(&study));
     Ok(Diagnosis { report, findings, held_out })
@@ -103,6 +105,43 @@ fn signal_names(train: &[Recording]) -> SignalNames {
         names.dedup();
     }
     SignalNames { missing, ignored }
+}
+
+/// How far other clocks were off.
+fn found_clocks(study: &Study, train: &[Recording]) -> Vec<FoundClock> {
+    let each = train.iter().zip(&study.clocks);
+    let found = |(recording, clocks): (&Recording, &Vec<ClockOffset>)| {
+        let of = |clock: &ClockOffset| FoundClock {
+            trace: recording.name.clone(),
+            name: clock.name.clone(),
+            offset_s: clock.offset_s,
+            drift: clock.drift,
+        };
+        clocks.iter().map(of).collect::<Vec<_>>()
+    };
+    each.flat_map(found).collect()
+}
+
+/// Of a clock with one device alone an offset is the same as a dead time of its links.
+fn lone_clocks(study: &Study, train: &[Recording]) -> Vec<NotTestable> {
+    let alone = study.clocks.iter().zip(train).flat_map(|(clocks, recording)| {
+        let lone = |(place, clock): (usize, &ClockOffset)| {
+            let register = recording.clocks.get(place)?.registers.first().filter(|_| clock.devices < 2)?;
+            let of = |subject: &&Subject| subject.signals.iter().any(|signal| signal.register == *register);
+            Some((clock.name.clone(), study.subjects.iter().find(of)?.name.clone()))
+        };
+        clocks.iter().enumerate().filter_map(lone).collect::<Vec<_>>()
+    });
+    let entry = |(clock, device): (String, String)| NotTestable {
+        device: Some(device),
+        effect: Some("dead-time".to_owned()),
+        reason: format!(
+            "it is the only device that the clock {clock} stamped: a dead time is the same as that clock's offset"
+        ),
+        needs: "a second device on that clock, or its reports by the clock of the commands".to_owned(),
+        ..NotTestable::default()
+    };
+    alone.map(entry).collect()
 }
 
 /// What else of the traces was left out.

@@ -170,6 +170,13 @@ pub(super) fn not_testable(report: &Report) -> String {
     list("Signals of the model that were not recorded", &report.signals.missing);
     list("Recorded signals that the model does not have, left out", &report.signals.ignored);
     list("Left out beside that", &report.left_out);
+    let clock = |clock: &crate::gap::report::FoundClock| {
+        format!("{} in {}: {:+.4} s, drift {:+.1} ppm", clock.name, clock.trace, clock.offset_s, 1e6 * clock.drift)
+    };
+    list(
+        "Clocks beside that of the commands, as they were found",
+        &report.clocks.iter().map(clock).collect::<Vec<_>>(),
+    );
     if out.is_empty() { out } else { format!("<section>\n<h2>What could not be tested</h2>\n{out}</section>\n") }
 }
 

@@ -65,6 +65,9 @@ pub struct Report {
     /// Beyond the contract: what these traces do not excite.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_testable: Vec<NotTestable>,
+    /// Beyond the contract: how far clocks beside that of the commands were off, in the training.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clocks: Vec<FoundClock>,
     /// Beyond the contract: what else of the traces was left out, a sentence each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<String>,
@@ -88,6 +91,7 @@ impl Report {
             made_from: None,
             signals: SignalNames::default(),
             not_testable: Vec::new(),
+            clocks: Vec::new(),
             left_out: Vec::new(),
         }
     }
@@ -104,6 +108,18 @@ pub struct MadeFrom {
     /// Spans in which the machine was not driven by its automation alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask: Option<String>,
+}
+
+/// A clock beside that of the commands: what it called t was at t + offset + drift·t.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FoundClock {
+    /// The trace, as it was given.
+    pub trace: String,
+    pub name: String,
+    /// s.
+    pub offset_s: f64,
+    /// Seconds for each second.
+    pub drift: f64,
 }
 
 /// Signals on which model and trace do not agree.
