@@ -8,10 +8,11 @@ use std::path::Path;
 use std::time::Duration;
 
 use kinetwin::device::KINDS;
-use kinetwin::gap::{Location, Recording, Span, Study, locate};
+use kinetwin::gap::{Location, Recording, Span, Study, locate, segments};
 use kinetwin::plant::{self, embedded::Embedded};
 use kinetwin::run::{self, Connect, Options, RecordTo, Speed};
-use kinetwin::trace::Reader;
+use kinetwin::time::Instant;
+use kinetwin::trace::{self, Compression, Reader, Sender};
 
 const RECORDINGS: &str = "../shared/data/rig-sample";
 
@@ -178,4 +179,65 @@ fn a_slow_conveyor_is_named_and_none_behind_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let location = locate_in("models/depalletizer", &record_line(folder.path(), slip));
     assert_eq!(own(&location), ["Conveyor5"]);
+}
+
+/// A recording of a rig without a gap, of which these lines alone were written.
+fn without(is_written: impl Fn(f64, bool) -> bool) -> Option<(Study, Vec<Recording>)> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(RECORDINGS).join("case-01/train.cps.jsonl.zst");
+    if !path.exists() {
+        println!("skipped: no recording at {}", path.display());
+        return None;
+    }
+    let mut reader = Reader::new("x", BufReader::new(File::open(path).expect("it opens"))).expect("a trace");
+    let mut text = "{\"trace\":\"kinetwin/1\",\"source\":\"plant\"}\n".to_owned();
+    while let Some(line) = reader.next_line().expect("a line") {
+        if is_written(line.at.seconds(), line.from == Sender::Plant) {
+            text.extend([line.text, "\n"]);
+        }
+    }
+    let plant = plant::load(&Embedded, "models/rig", KINDS).expect("the rig");
+    let reader = Reader::new("x", Cursor::new(text.into_bytes())).expect("a trace");
+    let recordings = segments(&plant, Recording::read(&plant, "x", reader, &[]).expect("a recording"));
+    Some((Study::new(&plant, &recordings).expect("a study"), recordings))
+}
+
+#[test]
+fn reports_that_nobody_wrote_down_make_no_gap() {
+    let Some((study, recordings)) = without(|at, is_report| !is_report || !(15.0..27.0).contains(&at)) else { return };
+    assert_eq!((recordings.len(), recordings[0].lost.len()), (1, 1));
+    assert_eq!(own(&locate(&study)), [""; 0]);
+}
+
+/// Where the commands are missing too, what follows is a recording of its own.
+#[test]
+fn a_recorder_that_was_away_makes_no_gap() {
+    for (from, to) in [(12.0, 22.0), (15.0, 27.0)] {
+        let Some((study, recordings)) = without(|at, _| !(from..to).contains(&at)) else { return };
+        assert_eq!(recordings.len(), 2);
+        assert!(recordings[1].name.contains(&format!("from {to}")), "{}", recordings[1].name);
+        let compared = study.scores().iter().flat_map(|score| &score.signals).filter(|signal| signal.run == 1).count();
+        assert!(compared > 10, "the second part is looked at: {compared}");
+        assert_eq!(own(&locate(&study)), [""; 0]);
+    }
+}
+
+/// A recording that begins while everything moves.
+#[test]
+fn a_recording_that_begins_under_way_makes_no_gap() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(RECORDINGS).join("case-01/train.cps.jsonl.zst");
+    if !path.exists() {
+        println!("skipped: no recording at {}", path.display());
+        return;
+    }
+    let plant = plant::load(&Embedded, "models/rig", KINDS).expect("the rig");
+    for from in [20.0, 23.0, 28.0] {
+        let reader = Reader::new("x", BufReader::new(File::open(&path).expect("it opens"))).expect("a trace");
+        let span =
+            trace::Span { from: Instant::from_seconds(from), to: Instant::from_seconds(54.0), warm_up: Duration::ZERO };
+        let cut = trace::cut(reader, Vec::new(), Compression::None, span).expect("a cut");
+        let reader = Reader::new("cut", Cursor::new(cut)).expect("a trace");
+        let recording = Recording::read(&plant, "cut", reader, &[]).expect("a recording");
+        let study = Study::new(&plant, &[recording]).expect("a study");
+        assert_eq!(own(&locate(&study)), [""; 0], "from {from} s on");
+    }
 }

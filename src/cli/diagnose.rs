@@ -18,7 +18,7 @@ use crate::gap::diagnosis::{self, Diagnosis, Options, Split};
 use crate::gap::page::page;
 use crate::gap::production::{self, Counters, Observation};
 use crate::gap::report::{Consequence, MadeFrom, NotTestable, Report};
-use crate::gap::{Recording, effects_xml};
+use crate::gap::{Recording, effects_xml, segments};
 use crate::plant::{ModelError, Plant, effects_file};
 use crate::run::{self, Stop, model, observe};
 use crate::trace;
@@ -77,9 +77,9 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
     let read = |paths: &[PathBuf]| {
         let recording = |path: &PathBuf| {
             let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks);
-            recording.map_err(|error| Failure::of(&error))
+            recording.map(|recording| segments(&plant, recording)).map_err(|error| Failure::of(&error))
         };
-        paths.iter().map(recording).collect::<Result<Vec<_>, _>>()
+        paths.iter().map(recording).collect::<Result<Vec<_>, _>>().map(|of_each| of_each.concat())
     };
     let (train, holdout) = (read(&arguments.train)?, read(&arguments.holdout)?);
     let recorded = train.iter().max_by(|a, b| a.ends.total_cmp(&b.ends)).cloned();

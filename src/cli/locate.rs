@@ -10,7 +10,9 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{Answer, Failure, words};
-use crate::gap::{Beat, ClockOffset, Located, LocatedSignal, Location, Recording, Span, Study, locate, read_mask};
+use crate::gap::{
+    Beat, ClockOffset, Located, LocatedSignal, Location, Recording, Span, Study, locate, read_mask, segments,
+};
 use crate::plant::Plant;
 use crate::replay::{self, Survey, Tolerances};
 use crate::run::{Options, model};
@@ -85,9 +87,9 @@ struct Heard<'a> {
     absent: &'a [String],
     /// Signals that were left out, and why.
     ignored: &'a BTreeMap<String, String>,
-    /// What was left out beside that, and how often.
     /// How far clocks beside that of the commands are off.
     clocks: &'a [ClockOffset],
+    /// What was left out beside that, and how often.
     notices: &'a BTreeMap<String, u64>,
     torn: Option<&'a str>,
 }
@@ -102,7 +104,7 @@ pub fn run(arguments: &LocateArguments) -> Result<Answer, Failure> {
     let mut recordings = Vec::new();
     for path in &arguments.traces {
         let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks);
-        recordings.push(recording.map_err(|error| Failure::of(&error))?);
+        recordings.extend(segments(&plant, recording.map_err(|error| Failure::of(&error))?));
     }
     let study = Study::new(&plant, &recordings).map_err(|error| Failure::of(&error))?;
     let mut location = locate(&study);

@@ -22,6 +22,7 @@
 
 mod alone;
 mod apply;
+mod beginning;
 pub mod cause;
 mod clocks;
 mod cost;
@@ -43,6 +44,7 @@ mod recording;
 mod regimes;
 pub mod report;
 mod score;
+mod silence;
 pub mod statistics;
 mod study;
 mod subject;
@@ -66,6 +68,7 @@ pub use parts::Origin;
 pub use prediction::{Passing, Predicted, PredictedEdge, Prediction};
 pub use recording::{Beat, Recording, RecordingError, Span, Stamped, TaskId};
 pub use score::{EdgeScore, LevelScore, Score, SignalScore};
+pub use silence::segments;
 pub use study::{Study, StudyError};
 pub use subject::{Run, SignalInfo, Subject};
 pub use track::{Edge, Track};

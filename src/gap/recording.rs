@@ -7,11 +7,12 @@
 use std::collections::BTreeMap;
 use std::io::BufRead;
 
+use super::silence;
 use crate::plant::{Instance, Plant, Task};
 use crate::prototype::quantity::to_si;
 use crate::signal_map::{Direction, Kind, RateClass, RegisterId, Signal, SignalMap};
 use crate::trace::{Body, Header, Line, Reader, Sender, Source, TraceError};
-use crate::value::{ElementaryType, Quantity, SignalType};
+use crate::value::{ElementaryType, SignalType};
 use crate::wire::{Entry, Message, TextForm, read_value};
 
 /// A task of an instance: one device of the engine, and what a diagnosis looks at one at a time.
@@ -147,6 +148,10 @@ pub struct Recording {
     pub torn: Option<String>,
     /// Where there is no evidence: the spans declared to [`Recording::read`], and those between two connections.
     pub blind: Vec<Span>,
+    /// Spans in which reports are missing: no signal is known again before its next report.
+    pub lost: Vec<Span>,
+    /// Whether it goes on with what another began, in the middle of a session.
+    pub resumes: bool,
     /// The stamps of the plant's lines that held a signal of each [`Beat`], in its order; each stamp once. Of signals that
     /// another clock stamped: see [`OtherClock::stamps`].
     pub stamps: [Vec<f64>; 3],
@@ -234,6 +239,18 @@ impl Recording {
         self.restamp(map);
     }
 
+    /// The values of every register, by its index.
+    pub(super) fn by_register(&self) -> &[Vec<Stamped>] {
+        &self.values
+    }
+
+    /// The same with other values, whose stamps are collected anew.
+    pub(super) fn with_values(mut self, map: &SignalMap, values: Vec<Vec<Stamped>>) -> Recording {
+        self.values = values;
+        self.restamp(map);
+        self
+    }
+
     /// Collects the stamps of every clock anew from the values.
     fn restamp(&mut self, map: &SignalMap) {
         let stamps = |wanted: Option<usize>| {
@@ -287,6 +304,8 @@ impl<'a> Reading<'a> {
             notices: BTreeMap::new(),
             torn: None,
             blind: masks.to_vec(),
+            lost: Vec::new(),
+            resumes: false,
             stamps: Default::default(),
             clocks: Vec::new(),
             values: vec![Vec::new(); map.signals().len()],
@@ -369,7 +388,7 @@ impl<'a> Reading<'a> {
 
     fn finish(self) -> Result<Recording, RecordingError> {
         let Reading { map, mut recording, .. } = self;
-        let silences = silences(map, &recording);
+        let silences = silence::silences(map, &recording);
         for span in &silences {
             let words = format!(
                 "nothing was reported from {:.3} s to {:.3} s though something moved: the span is left out",
@@ -377,7 +396,7 @@ impl<'a> Reading<'a> {
             );
             *recording.notices.entry(words).or_default() += 1;
         }
-        recording.blind.extend(silences);
+        recording.lost = silences;
         if recording.stamps.iter().all(Vec::is_empty) {
             let (name, ignored) = (recording.name, recording.ignored.len());
             return Err(RecordingError::Foreign { name, lines: recording.lines, ignored });
@@ -393,55 +412,5 @@ impl<'a> Reading<'a> {
             .map(|(_, signal)| signal.name.clone())
             .collect();
         Ok(recording)
-    }
-}
-
-/// A silence shorter than this is not looked at, s.
-const SILENCE_S: f64 = 2.0;
-/// What a value jumps by across a silence, in its usual changes from one report to the next, if reports are missing.
-const JUMP: f64 = 5.0;
-
-/// Spans in which nobody recorded: nothing at all was reported, and a position or a count is found far from where it was left.
-/// A sender of changes is silent while all rests, and says the first small change of what starts again.
-fn silences(map: &SignalMap, recording: &Recording) -> Vec<Span> {
-    let mut stamps: Vec<f64> = recording.stamps.concat();
-    stamps.sort_by(f64::total_cmp);
-    let silent = stamps.windows(2).filter(|pair| pair[1] - pair[0] > SILENCE_S);
-    let silent = silent.map(|pair| Span { from: pair[0], to: pair[1] });
-    let goes_on = |signal: &Signal| {
-        let is_count = signal.kind == Kind::Level && signal.ty != SignalType::scalar(ElementaryType::Real);
-        let is_way = matches!(signal.unit.quantity, Quantity::Length | Quantity::Angle);
-        signal.direction == Direction::Report && (is_way || is_count)
-    };
-    let ways = || map.signals().iter().zip(&recording.values).filter(|(signal, _)| goes_on(signal));
-    silent.filter(|span| ways().any(|(_, values)| jumps(values, *span))).collect()
-}
-
-/// Whether a signal is found at the end of a silence far from where it was left.
-fn jumps(values: &[Stamped], silence: Span) -> bool {
-    let after = values.partition_point(|stamped| stamped.at < silence.to);
-    let pair = after.checked_sub(1).and_then(|before| values.get(before).zip(values.get(after)));
-    let Some((before, after)) = pair.filter(|(_, after)| after.at == silence.to) else { return false };
-    let changes: Vec<f64> = values.windows(2).map(|pair| (pair[1].value - pair[0].value).abs()).collect();
-    (after.value - before.value).abs() > JUMP * super::statistics::quantile(&changes, 0.95)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn ramp(from: f64, to: f64, speed: f64) -> Vec<Stamped> {
-        let count = ((to - from) / 0.02) as i32;
-        (0..count).map(|k| from + f64::from(k) * 0.02).map(|at| Stamped { at, value: speed * at }).collect()
-    }
-
-    #[test]
-    fn reports_are_missing_where_a_position_jumps_across_a_silence() {
-        let silence = Span { from: 1.98, to: 5.0 };
-        let missed = [ramp(0.0, 2.0, 0.1), ramp(5.0, 8.0, 0.1)].concat();
-        assert!(jumps(&missed, silence));
-        let mut rested = ramp(0.0, 2.0, 0.1);
-        rested.extend(ramp(0.0, 3.0, 0.1).into_iter().map(|s| Stamped { at: s.at + 5.0, value: s.value + 0.2 }));
-        assert!(!jumps(&rested, silence));
     }
 }

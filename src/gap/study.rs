@@ -65,10 +65,21 @@ impl Study {
         let ids = TaskId::all(plant);
         let mut subjects: Vec<Subject> =
             ids.into_par_iter().map(|id| Subject::new(plant, id, recordings, &grids)).collect();
+        subjects
+            .par_iter_mut()
+            .try_for_each(|subject| calibrate(subject).map(|nominal| subject.await_agreement(&nominal)))?;
         let mut ticks = Vec::new();
         for (run, recording) in recordings.iter().enumerate() {
-            // Steps of ours are no tick to be found.
-            let tick = if recording.step().is_some() { 0.0 } else { find_tick(&mut subjects, run, &grids[run].main)? };
+            let tick = match ticks.last() {
+                // Steps of ours are no tick to be found.
+                _ if recording.step().is_some() => 0.0,
+                // The rest of a recording is of the same machine.
+                Some(tick) if recording.resumes => {
+                    subjects.iter_mut().for_each(|subject| subject.keep_tick(run));
+                    *tick
+                }
+                _ => find_tick(&mut subjects, run, &grids[run].main)?,
+            };
             ticks.push(tick);
         }
         let sizes = surroundings::part_sizes(plant);

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
+use super::beginning;
 use super::floor::Floor;
 use super::grid::median;
 use super::overrides::Overrides;
@@ -62,6 +63,8 @@ pub struct Run {
     pub script: Arc<Script>,
     /// Whether the recording starts under way, so that the device is given time to settle at its first commands.
     pub(super) settles: bool,
+    /// Whether it goes on with a recording whose commands are lost, so that nobody knows where the device is.
+    pub(super) resumes: bool,
     /// At equal times, whether a report already follows a command: so with steps of ours.
     pub(super) commands_first: bool,
     /// The tick at which the machine looked at its state, s; 0: none.
@@ -122,6 +125,7 @@ impl Subject {
                 ends: recording.ends,
                 commands: commands_of(plant, &commanded, recording),
                 settles: settles(plant, &commanded, recording),
+                resumes: recording.resumes,
                 tracks: signals.iter().map(track).collect(),
                 floors: vec![Floor { step: 1.0, noise: 0.0, timing: 0.0 }; signals.len()],
                 edge_sigmas: vec![EDGE_SIGMA_S; signals.len()],
@@ -169,9 +173,9 @@ impl Subject {
             let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &mut predicted[signal]) else {
                 continue;
             };
-            let (Some(recorded), Some(first)) = (track.values.first(), values.first().copied()) else { continue };
-            if recorded.abs() > STARTED_FRESH {
-                let base = recorded + 0.5 - first;
+            let Some(first) = (0..values.len()).find(|k| !track.is_blind(track.first + k)) else { continue };
+            if first > 0 || track.values.first().is_some_and(|recorded| recorded.abs() > STARTED_FRESH) {
+                let base = count_base(&track.values[first..], &values[first..]);
                 values.iter_mut().for_each(|value| *value += base);
             }
         }
@@ -268,6 +272,13 @@ impl Subject {
         Ok(())
     }
 
+    /// Leaves out what recordings that begin under way say of a state that nobody knows.
+    pub(super) fn await_agreement(&mut self, nominal: &Prediction) {
+        let signals = &self.signals;
+        let runs = self.runs.iter_mut().zip(&nominal.runs);
+        runs.for_each(|(run, predicted)| beginning::await_agreement(signals, run, predicted));
+    }
+
     /// The same device in one of its runs.
     pub fn only(&self, run: usize) -> Subject {
         Subject { runs: vec![self.runs[run].clone()], ..self.clone() }
@@ -277,6 +288,13 @@ impl Subject {
     pub(super) fn set_tick(&mut self, run: usize, sample_tick: f64, command_tick: f64) {
         let run = &mut self.runs[run];
         (run.sample_tick, run.command_tick) = (sample_tick, command_tick);
+    }
+
+    /// Takes the ticks of a run from the one before it.
+    pub(super) fn keep_tick(&mut self, run: usize) {
+        let before = &self.runs[run - 1];
+        let (sample_tick, command_tick) = (before.sample_tick, before.command_tick);
+        self.set_tick(run, sample_tick, command_tick);
     }
 
     /// Finds the floors of all levels from the recordings and a prediction, which may be wrong: what it gets wrong is slow
@@ -294,7 +312,8 @@ impl Subject {
                     true => 10e-6,
                     false => 50e-6_f64.hypot(track.grid.spread),
                 };
-                run.floors[signal] = Floor::of(&track.grid, &track.values, values, timing, info.is_count);
+                let (recorded, predicted) = track.evident(values);
+                run.floors[signal] = Floor::of(&track.grid, &recorded, &predicted, timing, info.is_count);
             }
         }
     }
@@ -304,6 +323,20 @@ impl Subject {
         let is_force = self.kind.name == "kinetwin.ServoAxis" && info.property == "force";
         if is_force { 0.5 * run.sample_tick } else { 0.0 }
     }
+}
+
+/// How far a counter was on when a recording began: it shows whole counts, so that each of them says it within one; the middle of
+/// what the first of them all allow.
+fn count_base(recorded: &[f64], predicted: &[f64]) -> f64 {
+    let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (recorded, predicted) in recorded.iter().zip(predicted) {
+        let (low, high) = (least.max(recorded - predicted), most.min(recorded + 1.0 - predicted));
+        if low >= high {
+            break;
+        }
+        (least, most) = (low, high);
+    }
+    0.5 * (least + most)
 }
 
 /// The beam that a signal reports.
@@ -399,7 +432,7 @@ fn settles(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Recordi
         let is_level = plant.signal_map.signal(*register).kind == Kind::Level;
         is_level && recording.values(*register).first().is_some_and(|told| told.at <= first && told.value != 0.0)
     };
-    recording.step().is_none() && commanded.iter().any(is_under_way)
+    recording.resumes || recording.step().is_none() && commanded.iter().any(is_under_way)
 }
 
 fn apart(run: &Run, signal: usize, pair: (&Predicted, &Predicted), residuals: &mut Vec<f64>) {

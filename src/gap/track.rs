@@ -1,5 +1,6 @@
 //! A recorded signal on the grid of its reports.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::grid::Grid;
@@ -97,7 +98,11 @@ impl Track {
     fn empty(grid: &Arc<Grid>, recording: &Recording, stamped: &[Stamped]) -> Option<Track> {
         let first = grid.index(stamped.first()?.at);
         let at = |instant: f64| grid.instants.partition_point(|at| *at < instant);
-        let blind = recording.blind.iter().map(|span| (at(span.from), at(span.to))).collect();
+        let blind = recording.blind.iter().map(|span| (at(span.from), at(span.to)));
+        // After lost reports a signal is unknown until it is reported again.
+        let known = |after: f64| stamped.iter().find(|news| news.at >= after).map_or(f64::INFINITY, |news| news.at);
+        let lost = recording.lost.iter().map(|span| (at(span.from) + 1, at(known(span.to)).saturating_sub(1)));
+        let blind = blind.chain(lost).collect();
         let grid = grid.clone();
         Some(Track {
             grid,
@@ -109,6 +114,17 @@ impl Track {
             tolerance: 0.0,
             blind,
         })
+    }
+
+    /// Of a level: its values, and those predicted in their place, where they are evidence.
+    pub(super) fn evident<'a>(&'a self, predicted: &'a [f64]) -> (Cow<'a, [f64]>, Cow<'a, [f64]>) {
+        if self.blind.is_empty() {
+            return (Cow::Borrowed(&self.values), Cow::Borrowed(predicted));
+        }
+        let seen = (0..self.values.len()).filter(|k| !self.is_blind(self.first + k));
+        let pairs = seen.map(|k| (self.values[k], predicted[k]));
+        let (values, predicted): (Vec<f64>, Vec<f64>) = pairs.unzip();
+        (Cow::Owned(values), Cow::Owned(predicted))
     }
 
     /// Whether an instant of the grid is no evidence.
