@@ -94,6 +94,21 @@ impl Score {
         residuals
     }
 
+    /// The run and the instant, s, of each of [`Score::residuals`]; `None` of one that stands for edges that nobody recorded.
+    pub fn places(&self) -> Vec<Option<(usize, f64)>> {
+        let mut places = Vec::new();
+        for signal in &self.signals {
+            let at = |at: f64| Some((signal.run, at));
+            places.extend(signal.level.iter().flat_map(|level| &level.at).map(|instant| at(*instant)));
+            let recorded = signal.edges.iter().filter(|edge| edge.recorded.is_some());
+            places.extend(recorded.map(|edge| at(edge.at())));
+            if signal.level.is_none() {
+                places.push(None);
+            }
+        }
+        places
+    }
+
     /// Every cost with its instant and its run, for sums over spans of time.
     pub fn costs(&self) -> impl Iterator<Item = (usize, f64, f64)> {
         self.signals.iter().flat_map(|signal| {

@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use super::nuisance::Nuisance;
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals};
 use crate::gap::statistics::inflation;
-use crate::gap::{Overrides, Predicted, Prediction, Score, Subject};
+use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject};
 use crate::plant::EffectSpec;
 
 /// The length of a block of time, s: at least some correlation times of a residual.
@@ -163,9 +163,14 @@ impl Bench<'_> {
         Some(fit::least_squares(&apart, at, &ranges, 10 + 8 * ranges.len() as u32)?.cost)
     }
 
+    /// How many blocks a run has.
+    pub fn blocks_of(&self, run: &Run) -> usize {
+        (run.ends / BLOCK_S).ceil().max(1.0) as usize
+    }
+
     /// The deviance of each block of time of all runs.
     pub fn blocks(&self, score: &Score) -> Vec<f64> {
-        let counts = self.subject.runs.iter().map(|run| (run.ends / BLOCK_S).ceil().max(1.0) as usize);
+        let counts = self.subject.runs.iter().map(|run| self.blocks_of(run));
         let mut firsts = vec![0];
         firsts.extend(counts.scan(0, |sum, count| {
             *sum += count;

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Tell, handicap, rung};
+use super::unseen::unseen;
 use crate::gap::statistics::{Draws, SAME_CLASS};
 use crate::plant::EffectPlace;
 
@@ -96,7 +97,7 @@ fn answer(
         let is_alias = candidate.is_parameter_error() && !named.is_parameter_error() && alternative.is_same;
         !holds_it && !is_alias
     });
-    weigh(ladder, Answer { place, weight: 0.0, alternatives })
+    weigh(bench, ladder, Answer { place, weight: 0.0, alternatives })
 }
 
 /// The best set without one of its effects, the others as they are.
@@ -119,16 +120,18 @@ fn alternative(bench: &Bench<'_>, best: &Trial, named: &Candidate, trial: Trial)
     Some(Alternative { trial, distance, is_same, weight: 0.0 })
 }
 
-/// In which share of the draws each wins; a class shares its weight evenly among its members, as nothing tells them apart.
-fn weigh(ladder: &Ladder, mut answer: Answer) -> Answer {
+/// In which share of the draws of blocks kept back each wins; a class shares its weight evenly among its members, as nothing tells them apart.
+fn weigh(bench: &Bench<'_>, ladder: &Ladder, mut answer: Answer) -> Answer {
     let best = &ladder.best;
     let inflation = best.inflation();
     let below = best.set.len() - 1;
     let rivals: Vec<usize> = (0..answer.alternatives.len()).filter(|at| !answer.alternatives[*at].is_same).collect();
     let trials: Vec<&Trial> =
         std::iter::once(best).chain(rivals.iter().map(|at| &answer.alternatives[*at].trial)).collect();
+    // On blocks that their parameters did not see; where the answer is wanted now, on all.
+    let costs = |trial: &&Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
     let scaled: Vec<Vec<f64>> =
-        trials.iter().map(|trial| trial.blocks.iter().map(|cost| cost / inflation).collect()).collect();
+        trials.iter().map(|trial| costs(trial).into_iter().map(|cost| cost / inflation).collect()).collect();
     let blocks: Vec<&[f64]> = scaled.iter().map(Vec::as_slice).collect();
     let handicaps: Vec<f64> = trials.iter().map(|trial| handicap(trial, below)).collect();
     let wins = Draws::new(best.blocks.len(), DRAWS, 2).wins(&blocks, &handicaps);

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::library;
+use super::unseen::unseen;
 use crate::gap::fit::{Effort, Residuals, least_squares, search, sum_of_squares};
 use crate::gap::statistics::{Draws, least_gain, quantile};
 use crate::gap::{Prediction, Score};
@@ -263,18 +264,21 @@ pub fn handicap(trial: &Trial, below: usize) -> f64 {
 fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
     let gain = below.cost - next.cost;
     let further = next.parameters() - below.parameters();
-    if gain < least_gain(further, ladder.tried) * next.inflation() || share(below, next, ladder)[0] < LEAST_SHARE {
+    if gain < least_gain(further, ladder.tried) * next.inflation() || share(bench, below, next, ladder)[0] < LEAST_SHARE
+    {
         return false;
     }
     let predictions = bench.predict(&below.set, &below.at).zip(bench.predict(&next.set, &next.at));
     predictions.is_some_and(|(below, next)| bench.differ(&below, &next))
 }
 
-/// Which share of the bare model's excess `next` takes away beyond `below`: its interval by block bootstrap.
-pub fn share(below: &Trial, next: &Trial, ladder: &Ladder) -> [f64; 2] {
+/// Which share of the bare model's excess `next` takes away beyond `below`, on blocks that the parameters of neither saw: its
+/// interval by block bootstrap.
+fn share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> [f64; 2] {
     let draws = Draws::new(below.blocks.len(), DRAWS, 1);
     let floor = ladder.floor.0;
-    let shares = draws.each(&[&ladder.bare.blocks, &below.blocks, &next.blocks], |sums| {
+    let kept_back = |trial: &Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
+    let shares = draws.each(&[&ladder.bare.blocks, &kept_back(below), &kept_back(next)], |sums| {
         (sums[1] - sums[2]) / (sums[0] - floor).max(1.0)
     });
     [quantile(&shares, 0.025), quantile(&shares, 0.975)]
