@@ -81,6 +81,7 @@ fn device_gap(subject: &Subject, added: &[EffectSpec], share: f64) -> DeviceGap 
                 unit: if is_edge { "s".to_owned() } else { info.unit.clone() },
                 missing: None,
                 extra: None,
+                in_windows: None,
             }
         });
     let regimes =

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
@@ -35,6 +35,9 @@ pub struct DiagnoseArguments {
     #[arg(long, value_name = "MODEL")]
     pub model: String,
     /// Recordings of the machine to learn from
+    ///
+    /// One whose header names another plant's file in the model's folder is taken to be of the machine set up as that file has
+    /// it: recordings at several settings are fitted together.
     #[arg(long, value_name = "TRACE", num_args = 1.., required = true)]
     pub train: Vec<PathBuf>,
     /// Recordings that no fit sees, to measure on; without any, spans of the training are kept back
@@ -77,9 +80,12 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
     let read = |paths: &[PathBuf]| {
         let recording = |path: &PathBuf| {
             let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks);
-            recording.map(|recording| segments(&plant, recording)).map_err(|error| Failure::of(&error))
+            let mut recording = recording.map_err(|error| Failure::of(&error))?;
+            set_up(&mut recording, &plant, &arguments.model)?;
+            Ok(segments(&plant, recording))
         };
-        paths.iter().map(recording).collect::<Result<Vec<_>, _>>().map(|of_each| of_each.concat())
+        let of_each = paths.iter().map(recording).collect::<Result<Vec<_>, Failure>>();
+        of_each.map(|of_each| of_each.concat())
     };
     let (train, holdout) = (read(&arguments.train)?, read(&arguments.holdout)?);
     let recorded = train.iter().max_by(|a, b| a.ends.total_cmp(&b.ends)).cloned();
@@ -108,6 +114,23 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
     let not_excited = not_excited(&plant, &answer.report, &arguments.train, &is_meant)?;
     answer.report.not_testable.extend(not_excited);
     write(&plant, arguments, answer)
+}
+
+/// A machine's recording says which model it is of. Where that is another plant's file in the folder of the model that is
+/// diagnosed, the machine was set up as that file has it: one device at several settings.
+fn set_up(recording: &mut Recording, plant: &Plant, model: &str) -> Result<(), Failure> {
+    let named = recording.header.model.clone().filter(|_| recording.header.source == trace::Source::Plant);
+    if let Some(variant) = named.filter(|named| named != model && folder(named) == folder(model)) {
+        recording.set_up_as(plant, &model::load(&variant)?);
+    }
+    Ok(())
+}
+
+/// The folder of a model.
+fn folder(model: &str) -> &str {
+    let path = Path::new(model);
+    let parent = path.extension().and_then(|_| path.parent()).and_then(Path::to_str);
+    parent.unwrap_or(model).trim_end_matches('/')
 }
 
 /// Effects that no training trace excites, of the devices with a gap; of all devices where none has one: what a `no-gap` does not

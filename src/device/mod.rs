@@ -143,6 +143,12 @@ pub trait Device: Send {
     /// From now on so many actuators of other devices on the same supply move.
     fn share(&mut self, _others: u32) {}
 
+    /// Is elsewhere at once, and faster, by so much: a diagnosis takes a device up where its machine was. False where its state is
+    /// not a position and a velocity alone, and nothing happens.
+    fn shift(&mut self, _by: path::Motion) -> bool {
+        false
+    }
+
     /// What it is to the parts.
     fn role(&self) -> Role<'_> {
         Role::Apart

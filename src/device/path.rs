@@ -66,7 +66,7 @@ pub struct Friction {
 pub struct Effort {
     /// Drive less load: what would accelerate the axis without friction, N or N·m.
     pub net: f64,
-    /// Drive and load together, as both press on the gears, N or N·m.
+    /// Drive and load together, as both press on the gears whichever way they do, N or N·m.
     pub transmitted: f64,
 }
 

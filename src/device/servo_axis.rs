@@ -70,6 +70,13 @@ pub static KIND: KindDescriptor = KindDescriptor {
             "force for each unit of forceTarget in mode force",
         ),
         number("forceLimit", EFFORT, (0.0, GREATEST), "500", "greatest force of the drive, either way"),
+        number(
+            "backEmf",
+            &[Quantity::LinearDamping, Quantity::AngularDamping],
+            (0.0, GREATEST),
+            "0",
+            "what the motor's own voltage takes from the drive's force for each unit of speed while torque is on",
+        ),
         number("load", EFFORT, (-GREATEST, GREATEST), "0", "constant load; positive opposes positive motion"),
         number(
             "pendulumMass",
@@ -136,7 +143,8 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
     };
     // The integrator belongs to the speed loop: there is none where there is no such loop.
     let integral_time = Some(number("velocityIntegralTime")).filter(|time| *time > 0.0 && velocity_gain > 0.0);
-    let drive = Loop { position_gain, velocity_gain, integral_time, limit: number("forceLimit") };
+    let drive =
+        Loop { position_gain, velocity_gain, integral_time, limit: number("forceLimit"), back_emf: number("backEmf") };
     let pendulum = number("pendulumMass") * number("pendulumLength");
     if pendulum > 0.0 && parameters.text("motion") == "linear" {
         return Err(misfit(instance, "pendulumMass", "is set on a linear axis: a pendulum needs motion rotary"));
@@ -425,6 +433,20 @@ impl Device for ServoAxis {
         u32::from(moves(velocity))
     }
 
+    /// With a transmission between, it is the motor that is shifted, and the load as far as it follows.
+    fn shift(&mut self, by: Motion) -> bool {
+        if self.mode == Mode::Ideal {
+            return false;
+        }
+        self.servo.shift(by.position, by.velocity);
+        if !self.stages.is_nominal() {
+            self.motor = self.motion();
+            let moment = self.stages.moment();
+            self.load = self.stages.transmission.motion(self.motor, moment);
+        }
+        true
+    }
+
     fn share(&mut self, others: u32) {
         self.stages.shared(f64::from(others));
     }
@@ -501,6 +523,15 @@ mod tests {
         axis.check(&[], 0.02, &[]);
         axis.check(&[("positionTarget", 0.31)], 0.01, &[("position", 0.31), ("velocity", 0.5)]);
         axis.check(&[], 0.1, &[("position", 0.31), ("velocity", 0.0)]);
+    }
+
+    #[test]
+    fn a_motor_brakes_itself_by_its_own_voltage_as_long_as_it_is_on() {
+        let mut axis = axis(&[("mode", "force"), ("backEmf", "150")]);
+        // 100 N against 50 N.s/m of friction and 150 of its own: 0.5 m/s, in 20 kg / 200 N.s/m.
+        let velocity = 0.5 * (1.0 - (-10.0_f64 * 0.3).exp());
+        axis.check(&[("forceTarget", 100.0)], 0.3, &[("velocity", velocity), ("force", 100.0)]);
+        axis.check(&[("torqueEnabled", 0.0)], 0.4, &[("velocity", velocity * (-2.5_f64 * 0.4).exp()), ("force", 0.0)]);
     }
 
     #[test]

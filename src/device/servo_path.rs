@@ -71,7 +71,9 @@ fn stretch(servo: &mut Servo, nominal: &Nominal, exertion: &mut Exertion, stages
     let share = stages.actuator.strength(servo.force());
     bound(servo, exertion.bounds, share, moment.span);
     let effort = servo.force();
-    let opposing = servo.resistance() - viscous_friction * motion.velocity;
+    // What the motor's own voltage takes never reaches the gears.
+    let lost = servo.back_emf() * motion.velocity;
+    let opposing = servo.resistance() - viscous_friction * motion.velocity - lost;
     let passed = if stages.shapes_effort() {
         let acceleration = (share * exertion.passed - servo.resistance()) / burden.inertia;
         // What was commanded since then jumped.
@@ -83,9 +85,9 @@ fn stretch(servo: &mut Servo, nominal: &Nominal, exertion: &mut Exertion, stages
     };
     exertion.passed = passed;
     // What is left of the drive's force against the load.
-    let driving = share * passed - opposing;
+    let driving = share * (passed - lost) - opposing;
     let base = Friction { sliding: 0.0, sticking: 0.0, viscous: viscous_friction };
-    let transmitted = (share * passed + opposing).abs();
+    let transmitted = (share * (passed - lost)).abs() + opposing.abs();
     let friction = stages.mechanics.friction(base, motion, Effort { net: driving, transmitted });
     if motion.velocity == 0.0 && driving.abs() <= friction.sticking {
         servo.wait(moment.span);
@@ -119,6 +121,7 @@ fn bound(servo: &mut Servo, bounds: Bounds, share: f64, span: f64) {
     servo.limit(bounds.force);
     if bounds.acceleration.is_finite() {
         let Mechanics { inertia, viscous_friction, .. } = servo.moved();
+        let viscous_friction = viscous_friction + servo.back_emf();
         let gained = 0.5 * bounds.acceleration * span;
         let resisting = servo.resistance() * servo.force().signum() + viscous_friction * gained;
         let most = (inertia * bounds.acceleration + resisting) / share;

@@ -5,7 +5,7 @@
 //! Signals may also be swapped: then two of a device's commands, or of its reports, change places before all stages.
 
 use crate::device::law::SAME_INSTANT_S;
-use crate::device::path::{Moment, Path, Stages};
+use crate::device::path::{Moment, Motion, Path, Stages};
 use crate::device::{Belt, Device, Plate, Role, Surroundings, Tool};
 
 /// A device with stages around it.
@@ -193,6 +193,12 @@ impl Device for Affected {
 
     fn moving(&self) -> u32 {
         self.inner.moving()
+    }
+
+    fn shift(&mut self, by: Motion) -> bool {
+        let is_shifted = self.inner.shift(by);
+        self.see_reports();
+        is_shifted
     }
 
     fn share(&mut self, others: u32) {

@@ -1,5 +1,6 @@
-//! `load-dependent-friction`: friction in proportion to what goes through the gears: F_r = coefficient·|F + L|, with F the
-//! drive's force and L the load that opposes it; at rest as much as is needed, up to that.
+//! `load-dependent-friction`: friction in proportion to what goes through the gears: F_r = coefficient·(|F| + |L|), with F
+//! the drive's force, less what the motor's own voltage takes of it, and L the load: both press on the teeth, whether they pull
+//! against one another or the same way. At rest it is as much as is needed, up to that.
 //!
 //! Source: the load-dependent model of M. Duclusaud and others, Extended Friction Models for the Physics Simulation of
 //! Servo Actuators (ICRA 2025).
@@ -13,7 +14,7 @@ use crate::plant::EffectPlace;
 pub static EFFECT: EffectDescriptor = EffectDescriptor {
     id: "load-dependent-friction",
     summary: "a friction in proportion to what goes through the gears",
-    equation: "F_r = coefficient·|F + L|·sign(v)",
+    equation: "F_r = coefficient·(|F| + |L|)·sign(v)",
     source: "Duclusaud and others, Extended Friction Models for the Physics Simulation of Servo Actuators, ICRA 2025",
     places: &[EffectPlace::Mechanics],
     fits: &[Fit::Drives(SERVO)],
@@ -67,5 +68,8 @@ mod tests {
     #[test]
     fn it_holds_a_load_that_the_drive_nearly_holds() {
         axis("50").check(&[("forceTarget", 41.0)], 1.0, &[("position", 0.0)]);
+        // One that pulls the way the drive does presses on the gears as well: 15 N of 150 N.
+        let velocity = 135.0 / 50.0 * (1.0 - (-2.5_f64).exp());
+        axis("-50").check(&[("forceTarget", 100.0)], 1.0, &[("velocity", velocity)]);
     }
 }

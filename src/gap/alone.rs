@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use super::prediction::{Passing, Predicted, PredictedEdge};
+use super::restarts::{Restart, Restarts};
 use super::subject::Run;
 use super::track::Track;
 use super::world::{Script, World};
+use crate::device::path::Motion;
 use crate::device::{Device, Role};
 
 /// Two instants nearer than this are one, s.
@@ -68,6 +70,17 @@ impl Alone {
         self.device.advance(SETTLING_S);
     }
 
+    /// Takes the device up where its machine was.
+    fn take_up(&mut self, restarts: &Restarts, at: usize) {
+        self.device.report(&mut self.reports);
+        let Restart { position, velocity, .. } = restarts.each[at];
+        let by = Motion {
+            position: position - self.reports[restarts.position],
+            velocity: velocity - self.reports[restarts.velocity],
+        };
+        self.device.shift(by);
+    }
+
     /// The part that changed a beam last, if the port is that beam's.
     fn passing(&self, beam: Option<usize>) -> Option<Passing> {
         let (part, speed) = self.world.as_ref()?.last[beam?]?;
@@ -111,6 +124,8 @@ pub(super) fn travel(mut device: Box<dyn Device>, run: &Run, instants: &[f64]) -
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Next {
     Command(usize),
+    /// The device is taken up where its machine was.
+    TakeUp,
     /// The streams that are due at this instant are sampled.
     Sample,
 }
@@ -142,12 +157,18 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
     }
     let mut views: Vec<View> = watches.iter().map(|watch| View::new(watch, &alone)).collect();
     let has_edges = views.iter().any(|view| view.is_edge);
-    let mut command = 0;
+    let (mut command, mut taken_up_again) = (0, 0);
+    let restarts = run.restarts.as_deref();
     loop {
         let due = run.commands.get(command).map(|(_, stamped)| taken_up(stamped.at, run.command_tick));
         let looked = streams.iter().filter_map(Stream::at).min_by(f64::total_cmp);
+        let restart = restarts.and_then(|restarts| restarts.each.get(taken_up_again)).map(|restart| restart.at);
+        let is_next = |restart: f64, looked: f64| restart <= looked && due.is_none_or(|due| restart <= due);
         let (at, next) = match (due, looked) {
             (_, None) => break,
+            (_, Some(looked)) if restart.is_some_and(|restart| is_next(restart, looked)) => {
+                (restart.unwrap_or(looked).max(alone.now), Next::TakeUp)
+            }
             (Some(due), Some(looked)) if is_first(due, looked, run.commands_first) => (due, Next::Command(command)),
             (_, Some(looked)) => (looked, Next::Sample),
         };
@@ -161,6 +182,13 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
                 let (port, stamped) = run.commands[index];
                 alone.device.command(port, stamped.value);
                 command += 1;
+                if has_edges {
+                    note_at_once(&mut views, &mut alone);
+                }
+            }
+            Next::TakeUp => {
+                restarts.into_iter().for_each(|restarts| alone.take_up(restarts, taken_up_again));
+                taken_up_again += 1;
                 if has_edges {
                     note_at_once(&mut views, &mut alone);
                 }

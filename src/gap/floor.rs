@@ -4,7 +4,7 @@ use super::cost;
 use super::grid::{Grid, median};
 
 /// The floor of a level in one recording, found in the recording itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Floor {
     /// What values are rounded to, SI: the smallest step between two of them.
     pub step: f64,
@@ -12,6 +12,9 @@ pub struct Floor {
     pub noise: f64,
     /// How far an instant may be off, standard deviation, s.
     pub timing: f64,
+    /// How far even a good model is off, standard deviation, SI: of a device that is taken up again and again, whose errors
+    /// grow from one time to the next. It belongs to the cost, not to the floor. 0 of every other.
+    pub reach: f64,
 }
 
 /// Of a step, how much of it is taken for noise at least: far less does not show.
@@ -29,7 +32,7 @@ impl Floor {
     /// The standard deviation that a cost is computed with, where the signal changes by `slope` in a second.
     pub fn sigma(&self, slope: f64) -> f64 {
         let noise = self.noise.max(LEAST_NOISE * self.step);
-        (noise * noise + (slope * self.timing).powi(2)).sqrt()
+        (noise * noise + (slope * self.timing).powi(2) + self.reach * self.reach).sqrt()
     }
 
     /// The root mean square of the difference where nothing is wrong and the signal moves with `slope`, SI.
@@ -53,11 +56,11 @@ impl Floor {
     pub fn of(grid: &Grid, recorded: &[f64], predicted: &[f64], timing: f64, is_count: bool) -> Floor {
         let step = if is_count { 1.0 } else { step_of(recorded) };
         if is_count {
-            return Floor { step, noise: 0.0, timing };
+            return Floor { step, timing, ..Floor::default() };
         }
         let still = at_rest(grid, recorded, predicted, step);
         let noise = if still.is_nan() { moving(recorded, predicted, step) } else { still };
-        Floor { step, noise, timing }
+        Floor { step, noise, timing, reach: 0.0 }
     }
 }
 

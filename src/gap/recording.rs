@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::io::BufRead;
 
 use super::silence;
-use crate::plant::{Instance, Plant, Task};
+use crate::plant::{Instance, ParameterValue, Parameters, Plant, Task};
 use crate::prototype::quantity::to_si;
 use crate::signal_map::{Direction, Kind, RateClass, RegisterId, Signal, SignalMap};
 use crate::trace::{Body, Header, Line, Reader, Sender, Source, TraceError};
@@ -157,6 +157,8 @@ pub struct Recording {
     pub stamps: [Vec<f64>; 3],
     /// Other clocks than that of the commands.
     pub clocks: Vec<OtherClock>,
+    /// How the machine was set up while it was recorded, where that is not as the model has it: parameters of its devices, SI.
+    pub settings: BTreeMap<TaskId, BTreeMap<String, f64>>,
     /// By register.
     values: Vec<Vec<Stamped>>,
 }
@@ -204,6 +206,28 @@ impl Recording {
             }
         }
         recording
+    }
+
+    /// From now on it is of the machine set up as `variant` has it, a plant with the same instances as `plant`: every number in
+    /// which their devices differ becomes a setting of this recording.
+    pub fn set_up_as(&mut self, plant: &Plant, variant: &Plant) {
+        for id in TaskId::all(plant) {
+            let (own, name) = (id.task(plant), &id.instance(plant).name);
+            let same = variant.instances.iter().find(|instance| instance.name == *name);
+            let Some(other) = same.and_then(|instance| instance.tasks.get(id.task)) else { continue };
+            let number = |parameters: &Parameters, name: &str| match parameters.0.get(name)?.value {
+                ParameterValue::Number(value) => Some(value),
+                _ => None,
+            };
+            let differing = own.parameters.0.keys().filter_map(|name| {
+                let (here, there) = (number(&own.parameters, name)?, number(&other.parameters, name)?);
+                (here != there).then(|| ((*name).to_owned(), there))
+            });
+            let differing: BTreeMap<String, f64> = differing.collect();
+            if !differing.is_empty() {
+                self.settings.insert(id, differing);
+            }
+        }
     }
 
     /// What was recorded of a register, in the order of time; empty where the trace does not hold it. Values are SI.
@@ -308,6 +332,7 @@ impl<'a> Reading<'a> {
             resumes: false,
             stamps: Default::default(),
             clocks: Vec::new(),
+            settings: BTreeMap::new(),
             values: vec![Vec::new(); map.signals().len()],
         };
         Reading { map, recording, last_report: None }

@@ -156,7 +156,8 @@ impl SignalScore {
             }
             let slope = slope(grid.instants.as_slice(), track.first, predicted, k);
             let difference = recorded + half - predicted_here;
-            let is_rest = !shows_noise && k > 0 && {
+            // What is expected to be off anyway is off at rest as well, and says so for as long as it lasts.
+            let is_rest = !shows_noise && floor.reach == 0.0 && k > 0 && {
                 let before = track.values[k - 1] - predicted[k - 1];
                 let (now, step) = (recorded - predicted_here, floor.step);
                 let is_still =

@@ -91,6 +91,21 @@ impl Study {
         Ok(Study { subjects, nominal, ticks, grids, clocks: vec![Vec::new(); recordings.len()] })
     }
 
+    /// The same for recordings that `trained` has not seen. The devices that are taken up again there are replayed in one go
+    /// here, from where their machine was at the start.
+    ///
+    /// # Errors
+    /// As of [`Study::new`].
+    pub fn beside(plant: &Plant, recordings: &[Recording], trained: &Study) -> Result<Study, StudyError> {
+        let mut study = Study::new(plant, recordings)?;
+        for (place, subject) in study.subjects.iter_mut().enumerate() {
+            if subject.take_up_like(&trained.subjects[place]) {
+                study.nominal[place] = subject.predict(&[], &Overrides::none())?;
+            }
+        }
+        Ok(study)
+    }
+
     /// The subject called so.
     pub fn subject(&self, name: &str) -> Option<&Subject> {
         self.subjects.iter().find(|subject| subject.name == name)
@@ -127,7 +142,19 @@ fn find_tick(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
 fn calibrate(subject: &mut Subject) -> Result<Prediction, EffectError> {
     let nominal = subject.predict(&[], &Overrides::none())?;
     subject.find_floors(&nominal, Timing::AsFound);
+    // What the model explains in one go needs no taking up again.
+    if is_explained(&subject.score(&nominal)) || !subject.take_up_again()? {
+        return Ok(nominal);
+    }
+    let nominal = subject.predict(&[], &Overrides::none())?;
+    subject.find_reach(&nominal);
     Ok(nominal)
+}
+
+/// Whether a score is not far above its floor.
+fn is_explained(score: &Score) -> bool {
+    let floor = score.total - score.excess();
+    score.excess() < 18.0 + floor
 }
 
 /// How far sensors may be off in time, s: what is tried.

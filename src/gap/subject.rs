@@ -1,5 +1,6 @@
 //! One device alone: driven by the recorded commands and by what its neighbours reported, it predicts its own reports.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
@@ -10,6 +11,7 @@ use super::overrides::Overrides;
 use super::parts::{Barrier, likeliest_shifts};
 use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
+use super::restarts::Restarts;
 use super::score::{Score, SignalScore};
 use super::study::Grids;
 use super::surroundings;
@@ -17,7 +19,7 @@ use super::track::Track;
 use super::world::Script;
 use crate::device::Device;
 use crate::effect::{self, EffectError};
-use crate::plant::{EffectSpec, Parameters, Plant};
+use crate::plant::{EffectSpec, ParameterValue, Parameters, Plant};
 use crate::prototype::kind::{KindDescriptor, PortType};
 use crate::signal_map::{Direction, Kind, RegisterId};
 use crate::trace::Commands;
@@ -71,6 +73,10 @@ pub struct Run {
     pub(super) sample_tick: f64,
     /// The tick at which it took commands up, s; 0: at once.
     pub(super) command_tick: f64,
+    /// Parameters of the device that were set up otherwise than the model has them while this was recorded, SI.
+    pub settings: BTreeMap<String, f64>,
+    /// Where the device is taken up again; `None`: it is replayed in one go from rest.
+    pub(super) restarts: Option<Arc<Restarts>>,
 }
 
 impl Run {
@@ -127,12 +133,14 @@ impl Subject {
                 settles: settles(plant, &commanded, recording),
                 resumes: recording.resumes,
                 tracks: signals.iter().map(track).collect(),
-                floors: vec![Floor { step: 1.0, noise: 0.0, timing: 0.0 }; signals.len()],
+                floors: vec![Floor { step: 1.0, ..Floor::default() }; signals.len()],
                 edge_sigmas: vec![EDGE_SIGMA_S; signals.len()],
                 script: Arc::default(),
                 commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
                 command_tick: 0.0,
+                settings: recording.settings.get(&id).cloned().unwrap_or_default(),
+                restarts: None,
             }
         });
         Subject {
@@ -155,15 +163,52 @@ impl Subject {
     /// Effects or parameters that do not fit the device, or that are out of their ranges.
     pub fn predict(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Prediction, EffectError> {
         let device = self.device(effects, overrides)?;
-        let run = |run: &Run| {
+        let run = |run: &Run| -> Result<Vec<Predicted>, EffectError> {
+            let set_up = match run.settings.is_empty() {
+                true => None,
+                false => Some(self.set_up(&run.settings, effects, overrides)?),
+            };
+            let device = set_up.as_ref().unwrap_or(&device);
             let watch = |(info, track)| self.watch(info, track, run);
             let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
             let alone = Alone::new(device.boxed(), self.kind.ports.len(), &run.script);
             let mut predicted = alone::run(alone, run, &watches);
             self.count_on(run, &mut predicted);
-            predicted
+            Ok(predicted)
         };
-        Ok(Prediction { runs: self.runs.iter().map(run).collect() })
+        Ok(Prediction { runs: self.runs.iter().map(run).collect::<Result<_, _>>()? })
+    }
+
+    /// The device set up otherwise: a nominal parameter that is wrong is wrong by the same factor there.
+    fn set_up(
+        &self,
+        settings: &BTreeMap<String, f64>,
+        effects: &[EffectSpec],
+        overrides: &Overrides,
+    ) -> Result<Box<dyn Device>, EffectError> {
+        let factor = |name: &String| match self.parameters.0.get(name.as_str()).map(|parameter| &parameter.value) {
+            Some(ParameterValue::Number(nominal)) if *nominal != 0.0 => settings.get(name).map(|set| set / nominal),
+            _ => None,
+        };
+        let mut numbers = overrides.clone();
+        for (name, value) in &mut numbers.0 {
+            *value *= factor(name).unwrap_or(1.0);
+        }
+        let mut effects = effects.to_vec();
+        let mut wrong: Vec<&String> = Vec::new();
+        for effect in effects.iter_mut().filter(|effect| effect.kind == "parameter-error") {
+            let Some((name, factor)) = effect.component.as_ref().and_then(|name| Some((name, factor(name)?))) else {
+                continue;
+            };
+            if let Some(ParameterValue::Number(value)) = effect.parameters.get_mut("value") {
+                *value *= factor;
+                wrong.extend(settings.keys().find(|set| *set == name));
+            }
+        }
+        for (name, value) in settings.iter().filter(|(name, _)| !wrong.contains(name)) {
+            numbers.0.entry(name.clone()).or_insert(*value);
+        }
+        self.device(&effects, &numbers)
     }
 
     /// A counter that a recording finds at some count counts on from there: where it began is no gap.
@@ -252,7 +297,7 @@ impl Subject {
     }
 
     /// The device as the model has it, with `effects` beside its own.
-    fn device(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Box<dyn Device>, EffectError> {
+    pub(super) fn device(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Box<dyn Device>, EffectError> {
         let own = self.effects.iter().chain(effects).cloned();
         let all: Vec<EffectSpec> = own.chain(overrides.effects()).collect();
         let mut device = effect::build(self.kind, &self.parameters, &self.instance, &all, 0)?;
@@ -404,19 +449,21 @@ fn commands_of(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Rec
 
 /// Samples with the straight lines between them, in short steps that each hold their middle; not over a gap in time.
 fn on_lines(samples: &[Stamped]) -> Vec<Stamped> {
-    const PARTS: u32 = 10;
+    const MOST_PARTS: f64 = 10.0;
+    const SHORT_S: f64 = 2e-3;
     const GAP: f64 = 5.0;
     let spans: Vec<f64> = samples.windows(2).map(|pair| pair[1].at - pair[0].at).collect();
     let usual = median(&spans).unwrap_or(0.0);
-    let mut on_lines = Vec::with_capacity(samples.len() * PARTS as usize);
+    let mut on_lines = Vec::with_capacity(samples.len());
     for pair in samples.windows(2) {
         let (from, to) = (pair[0], pair[1]);
         on_lines.push(from);
         if to.at - from.at > GAP * usual || from.value == to.value {
             continue;
         }
-        for part in 0..PARTS {
-            let share = |of: f64| (f64::from(part) + of) / f64::from(PARTS);
+        let parts = ((to.at - from.at) / SHORT_S).ceil().clamp(1.0, MOST_PARTS);
+        for part in 0..parts as u32 {
+            let share = |of: f64| (f64::from(part) + of) / parts;
             let at = from.at + share(0.0) * (to.at - from.at) + 1e-9;
             on_lines.push(Stamped { at, value: from.value + share(0.5) * (to.value - from.value) });
         }

@@ -41,6 +41,9 @@ pub struct Loop {
     pub integral_time: Option<f64>,
     /// Greatest force either way, N or N·m.
     pub limit: f64,
+    /// What the motor's own voltage takes from the force for each unit of speed while the drive is on, beyond the limit too;
+    /// N·s/m or N·m·s/rad.
+    pub back_emf: f64,
 }
 
 /// What the drive moves.
@@ -103,13 +106,13 @@ impl Motion {
 /// A bound of the rates at which an axis can move, 1/s: the sum of the rates that stand for each coupling alone (a norm of
 /// the system's matrix in the scaling of its states that makes it least); above 0.
 fn rate(drive: &Loop, mechanics: &Mechanics) -> f64 {
-    let Loop { position_gain, velocity_gain, integral_time, .. } = *drive;
+    let Loop { position_gain, velocity_gain, integral_time, back_emf, .. } = *drive;
     let Mechanics { inertia, viscous_friction, pendulum, .. } = *mechanics;
     let stiffness = position_gain + pendulum * GRAVITY;
     let reset = integral_time.map_or(0.0, |time| {
         1.0 / time + (velocity_gain / (inertia * time)).sqrt() + (position_gain / (inertia * time)).cbrt()
     });
-    let rate = (stiffness / inertia).sqrt() + (velocity_gain + viscous_friction) / inertia + reset;
+    let rate = (stiffness / inertia).sqrt() + (velocity_gain + viscous_friction + back_emf) / inertia + reset;
     rate.max(f64::MIN_POSITIVE)
 }
 
@@ -158,7 +161,8 @@ impl Servo {
 
     /// From now on the drive exerts `force` whatever its loop demands, N or N·m; the loop's gains stay without effect.
     pub fn open(&mut self, force: f64) {
-        self.drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: f64::MAX };
+        let back_emf = self.back_emf();
+        self.drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: f64::MAX, back_emf };
         self.rate = rate(&self.drive, &self.mechanics);
         self.reference = force;
         self.integral = 0.0;
@@ -176,6 +180,12 @@ impl Servo {
         self.velocity = other.velocity;
     }
 
+    /// Is elsewhere at once, and faster, by so much; its integrator stays as it is.
+    pub fn shift(&mut self, position: f64, velocity: f64) {
+        self.position += position;
+        self.velocity += velocity;
+    }
+
     /// Lets `seconds` pass at rest: only the integrator moves, towards what the drive exerts.
     pub fn wait(&mut self, seconds: f64) {
         if let (Some(time), true) = (self.drive.integral_time, self.torque) {
@@ -186,7 +196,7 @@ impl Servo {
 
     /// What drives the axis now: the drive's force less load and weight, friction apart; N or N·m.
     pub fn driving(&self) -> f64 {
-        self.force() - (self.resistance() - self.mechanics.viscous_friction * self.velocity)
+        self.force() - (self.resistance() - self.damping() * self.velocity)
     }
 
     /// Present position, m or rad.
@@ -274,10 +284,20 @@ impl Servo {
         (self.force() - self.resistance()) / self.mechanics.inertia
     }
 
-    /// Friction and load now, N or N·m.
+    /// What the motor's own voltage takes from the force for each unit of speed, as long as the drive is on.
+    pub fn back_emf(&self) -> f64 {
+        if self.torque { self.drive.back_emf } else { 0.0 }
+    }
+
+    /// What opposes the motion in proportion to its speed.
+    fn damping(&self) -> f64 {
+        self.mechanics.viscous_friction + self.back_emf()
+    }
+
+    /// Friction and load now, N or N·m; what the motor's own voltage takes counts as friction.
     pub fn resistance(&self) -> f64 {
-        let Mechanics { viscous_friction, load, pendulum, .. } = self.mechanics;
-        viscous_friction * self.velocity + load + pendulum * GRAVITY * self.position.sin()
+        let Mechanics { load, pendulum, .. } = self.mechanics;
+        self.damping() * self.velocity + load + pendulum * GRAVITY * self.position.sin()
     }
 
     /// When within `step` the motion leaves its regime.
@@ -297,8 +317,9 @@ impl Servo {
 
     /// The motion from here on in `regime`, by the recurrences of its equations' coefficients.
     fn motion(&self, regime: Regime, order: usize) -> Motion {
-        let Loop { position_gain, velocity_gain, integral_time, limit } = self.drive;
-        let Mechanics { inertia, viscous_friction, load, pendulum } = self.mechanics;
+        let Loop { position_gain, velocity_gain, integral_time, limit, .. } = self.drive;
+        let Mechanics { inertia, load, pendulum, .. } = self.mechanics;
+        let damping = self.damping();
         let mobility = 1.0 / inertia;
         let reset = integral_time.filter(|_| self.torque).map_or(0.0, |time| 1.0 / time);
         let mut motion = Motion::new(order);
@@ -316,7 +337,7 @@ impl Servo {
         for k in 0..order {
             demand[k] = reference - position_gain * x[k] - velocity_gain * v[k] + i[k];
             let force = if regime == Regime::Free { demand[k] } else { constant_force };
-            let resistance = viscous_friction * v[k] + constant_load + weight.coefficient(k);
+            let resistance = damping * v[k] + constant_load + weight.coefficient(k);
             let share = RECIPROCALS[k + 1];
             x[k + 1] = v[k] * share;
             v[k + 1] = (force - resistance) * mobility * share;
@@ -381,7 +402,8 @@ mod tests {
 
     /// The axis of the rig: 25 1/s and 800 N·s/m, 20 kg, 50 N·s/m.
     fn rig(limit: f64) -> Servo {
-        let drive = Loop { position_gain: 25.0 * 800.0, velocity_gain: 800.0, integral_time: None, limit };
+        let drive =
+            Loop { position_gain: 25.0 * 800.0, velocity_gain: 800.0, integral_time: None, limit, back_emf: 0.0 };
         Servo::new(drive, Mechanics { inertia: 20.0, viscous_friction: 50.0, load: 0.0, pendulum: 0.0 })
     }
 
@@ -450,7 +472,7 @@ mod tests {
 
     #[test]
     fn a_constant_force_alone_gives_a_parabola() {
-        let drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: 500.0 };
+        let drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: 500.0, back_emf: 0.0 };
         let mechanics = Mechanics { inertia: 20.0, viscous_friction: 0.0, load: 10.0, pendulum: 0.0 };
         let mut axis = Servo::new(drive, mechanics);
         axis.reference = 50.0;
@@ -508,7 +530,7 @@ mod tests {
 
     #[test]
     fn a_pendulum_keeps_its_energy_and_falls_freely_without_torque() {
-        let drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: 1.0 };
+        let drive = Loop { position_gain: 0.0, velocity_gain: 0.0, integral_time: None, limit: 1.0, back_emf: 0.0 };
         let pendulum = Mechanics { inertia: 0.0049, viscous_friction: 0.0, load: 0.0, pendulum: 0.049 };
         let mut servo = Servo::new(drive, pendulum);
         (servo.torque, servo.position) = (false, 3.0);

@@ -4,11 +4,14 @@ use super::candidate::Candidate;
 use super::nuisance::Nuisance;
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals};
 use crate::gap::statistics::inflation;
-use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject};
+use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject, WINDOW_S};
 use crate::plant::EffectSpec;
 
 /// The length of a block of time, s: at least some correlation times of a residual.
 pub const BLOCK_S: f64 = 2.0;
+
+/// How often a rugged deviance is computed for each parameter, and for once more.
+const TRIALS: u32 = 60;
 
 /// A device, and what all fits of it have in common.
 pub struct Bench<'a> {
@@ -32,6 +35,8 @@ pub struct Trial {
     pub blocks: Vec<f64>,
     /// The correlation of neighbouring residuals.
     pub correlation: f64,
+    /// The nuisances as they were fitted.
+    pub overrides: Overrides,
 }
 
 impl Trial {
@@ -72,6 +77,11 @@ impl Bench<'_> {
         (self.stop)()
     }
 
+    /// Whether slopes of the deviance lead nowhere: of a device whose errors decide what comes later.
+    pub fn is_rugged(&self) -> bool {
+        self.subject.is_taken_up_again()
+    }
+
     /// The nuisances that a set leaves free: not those that it sets itself.
     fn nuisances_beside<'b>(&'b self, set: &'b [Candidate]) -> impl Iterator<Item = &'b Nuisance> {
         let is_set = |nuisance: &&Nuisance| {
@@ -92,9 +102,15 @@ impl Bench<'_> {
             specs.push(candidate.spec(own));
             rest = others;
         }
-        let nuisances =
-            self.nuisances_beside(set).zip(rest).map(|(nuisance, value)| (nuisance.name.to_owned(), *value));
-        self.subject.predict(&specs, &Overrides(nuisances.collect())).ok()
+        self.subject.predict(&specs, &self.overrides(set, at)).ok()
+    }
+
+    /// The nuisances beside `set` that `at` holds a value for.
+    fn overrides(&self, set: &[Candidate], at: &[f64]) -> Overrides {
+        let own: usize = set.iter().map(|candidate| candidate.free.len()).sum();
+        let values = at.iter().skip(own);
+        let nuisances = self.nuisances_beside(set).zip(values);
+        Overrides(nuisances.map(|(nuisance, value)| (nuisance.name.to_owned(), *value)).collect())
     }
 
     /// The residuals of a set, those of the nuisances' tolerances behind.
@@ -130,7 +146,10 @@ impl Bench<'_> {
         let ranges = self.ranges(set);
         let residuals = |at: &[f64]| self.residuals(set, at);
         let residuals: &Residuals<'_> = &residuals;
-        let found = fit::search(residuals, starts, &ranges, effort)?;
+        let found = match self.is_rugged() {
+            true => fit::rugged(residuals, starts, &ranges, TRIALS * (1 + ranges.len() as u32))?,
+            false => fit::search(residuals, starts, &ranges, effort)?,
+        };
         self.trial(set, found.at)
     }
 
@@ -142,10 +161,22 @@ impl Bench<'_> {
             ranges: self.ranges(set),
             cost: score.total + strain,
             blocks: self.blocks(&score),
-            correlation: correlation(&score),
+            correlation: correlation(&score).min(self.most_correlated()),
+            overrides: self.overrides(set, &at),
             set: set.to_vec(),
             at,
         })
+    }
+
+    /// How far residuals may remember: those of a window know nothing of those of another, so that there are at least as many
+    /// independent ones as windows.
+    fn most_correlated(&self) -> f64 {
+        if !self.is_rugged() {
+            return 1.0;
+        }
+        let cycles = self.subject.runs.iter().flat_map(|run| run.tracks.iter().flatten()).map(|track| track.grid.cycle);
+        let within = WINDOW_S / cycles.fold(f64::INFINITY, f64::min).max(1e-6);
+        ((within - 1.0) / (within + 1.0)).clamp(0.0, 1.0)
     }
 
     /// How far `set`, with all that is free beside it, stays from `output` when it is fitted to it: whitened and squared.

@@ -203,7 +203,11 @@ fn beside(bench: &Bench<'_>, below: &Trial, candidate: &Candidate, excess: f64) 
     if !ranges.is_empty() {
         let glance = least_squares(&residuals, first, &ranges, 4 + 4 * ranges.len() as u32)?;
         best = (glance.cost, glance.at);
-        if below.cost - best.0 > PROMISING * excess {
+        let is_promising = below.cost - best.0 > PROMISING * excess;
+        if is_promising && bench.is_rugged() {
+            return bench.fit(&set, &[all(&best.1)], Effort { starts: 1, budget: 60 });
+        }
+        if is_promising {
             let starts: Vec<Vec<f64>> = std::iter::once(best.1.clone())
                 .chain(scored.iter().skip(1).take(2).map(|(_, start)| (*start).clone()))
                 .collect();
@@ -241,13 +245,14 @@ fn choose(bench: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Option<Trial> {
     let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * inflation;
     let mut order: Vec<&Trial> = rivals.iter().collect();
     order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
-    let refit = |trial: &&Trial| match below.set.is_empty() && bench.nuisances.is_empty() {
+    // What a rugged deviance was fitted to was fitted with everything free.
+    let refit = |trial: &&Trial| match bench.is_rugged() || (below.set.is_empty() && bench.nuisances.is_empty()) {
         true => Some((*trial).clone()),
         false => bench
             .fit(&trial.set, std::slice::from_ref(&trial.at), Effort { starts: 1, budget: 60 })
             .or(Some((*trial).clone())),
     };
-    let mut refitted: Vec<Trial> = order.iter().take(3).filter_map(refit).collect();
+    let mut refitted: Vec<Trial> = order.into_par_iter().take(3).filter_map(|trial| refit(&trial)).collect();
     refitted.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
     refitted.into_iter().next()
 }

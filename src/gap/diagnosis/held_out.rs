@@ -3,8 +3,8 @@
 use super::Finding;
 use super::shrink::{Squares, shrink};
 use crate::gap::regimes::regimes;
-use crate::gap::report::{DeviceGap, EdgeCounts, Gap, Report, SignalGap, SignalKind, Verdict};
-use crate::gap::{Overrides, Recording, Score, SignalScore, Span, Study, Subject};
+use crate::gap::report::{DeviceGap, EdgeCounts, Gap, InWindows, Report, SignalGap, SignalKind, Verdict};
+use crate::gap::{Recording, Score, SignalScore, Span, Study, Subject, WINDOW_S};
 use crate::plant::Plant;
 use crate::signal_map::Kind;
 
@@ -56,17 +56,24 @@ impl Measured {
             let Some(finding) = findings.iter().find(|finding| finding.subject == place) else { continue };
             let before = subject.score(&held_out.nominal[place]);
             let specs = finding.specs();
-            let after = match specs.is_empty() {
+            let (bare, best) = (&finding.ladder.bare.overrides, &finding.ladder.best.overrides);
+            let with = |subject: &Subject| match specs.is_empty() {
                 true => None,
-                false => subject.predict(&specs, &Overrides::none()).ok().map(|with| subject.score(&with)),
+                false => subject.predict(&specs, best).ok().map(|with| subject.score(&with)),
             };
+            let after = with(subject);
             let after = after.as_ref().unwrap_or(&before);
+            let windows = subject.is_taken_up_again().then(|| subject.in_windows()).and_then(|windowed| {
+                let before = windowed.score(&windowed.predict(&[], bare).ok()?);
+                let after = with(&windowed);
+                Some((before.clone(), after.unwrap_or(before)))
+            });
             measured.squares.add(subject, &before, after);
             if finding.has_gap() {
                 measured.devices.push(DeviceGap {
                     device: subject.id.instance(plant).name.clone(),
                     share: finding.misfit / all.max(1e-12),
-                    signals: signals(plant, subject, &before, after),
+                    signals: signals(plant, subject, (&before, after), windows.as_ref()),
                     regimes: regimes(subject, &held_out.nominal[place], &before),
                 });
             }
@@ -94,8 +101,13 @@ impl Finding {
     }
 }
 
-/// The device's signals that are off, before or after.
-fn signals(plant: &Plant, subject: &Subject, before: &Score, after: &Score) -> Vec<SignalGap> {
+/// The device's signals that are off, before or after; in one go, and where it is taken up again after every window.
+fn signals(
+    plant: &Plant,
+    subject: &Subject,
+    (before, after): (&Score, &Score),
+    windows: Option<&(Score, Score)>,
+) -> Vec<SignalGap> {
     let mut gaps = Vec::new();
     for (place, info) in subject.signals.iter().enumerate() {
         let of =
@@ -104,6 +116,7 @@ fn signals(plant: &Plant, subject: &Subject, before: &Score, after: &Score) -> V
         if before.is_empty() {
             continue;
         }
+        let windows = windows.map(|(before, after)| (of(before), of(after)));
         let unit = plant.signal_map.signal(info.register).unit;
         let is_edge = info.kind == Kind::Edge;
         let in_unit = |si: f64| if is_edge { si } else { si / unit.to_si };
@@ -125,6 +138,10 @@ fn signals(plant: &Plant, subject: &Subject, before: &Score, after: &Score) -> V
             unit: if is_edge { "s".to_owned() } else { unit.symbol.to_owned() },
             missing: is_edge.then(|| counts(SignalScore::missing)),
             extra: is_edge.then(|| counts(SignalScore::extra)),
+            in_windows: windows.filter(|_| !is_edge).and_then(|(before, after)| {
+                let (before, after) = (rms(&before, |score| score.rms)?, rms(&after, |score| score.rms)?);
+                Some(InWindows { every_s: WINDOW_S, before, after })
+            }),
         });
     }
     gaps

@@ -7,6 +7,7 @@
 mod finding;
 mod held_out;
 mod shrink;
+mod states;
 mod verdict;
 mod words;
 
@@ -16,7 +17,7 @@ pub use held_out::{Split, kept_back};
 use super::cause::{BLOCK_S, Tell};
 use super::page::{Added, Evidence, gather};
 use super::report::{FoundClock, NotTestable, Report, SignalNames};
-use super::{ClockOffset, Overrides, Recording, Study, StudyError, Subject};
+use super::{ClockOffset, Recording, Study, StudyError, Subject};
 use crate::effect::EffectError;
 use crate::plant::Plant;
 use held_out::Measured;
@@ -51,14 +52,14 @@ impl Diagnosis {
     /// What is added does not fit a device: never of an answer that was found.
     pub fn evidence(&self, plant: &Plant) -> Result<Evidence, EffectError> {
         let with_gap = self.findings.iter().filter(|finding| finding.has_gap());
-        let added: Vec<_> = with_gap.map(|finding| (finding.subject, finding.specs())).collect();
-        let none = Overrides::none();
+        let added: Vec<_> =
+            with_gap.map(|finding| (finding.subject, finding.specs(), &finding.ladder.best.overrides)).collect();
         let added: Vec<Added<'_>> = added
             .iter()
-            .map(|(subject, effects)| Added {
+            .map(|(subject, effects, overrides)| Added {
                 device: &self.held_out.subjects[*subject].name,
                 effects,
-                overrides: &none,
+                overrides,
             })
             .collect();
         gather(plant, &self.held_out, &added)
@@ -81,7 +82,12 @@ pub fn diagnose(
     let findings: Vec<Finding> = meant
         .filter_map(|(place, (subject, nominal))| finding::find(place, subject, nominal, &study, options))
         .collect();
-    let held_out = Study::new(plant, held_out)?;
+    let mut held_out = Study::beside(plant, held_out, &study)?;
+    // What is within the tolerances is no gap: the model stands there as well as they let it.
+    for finding in findings.iter().filter(|finding| !finding.ladder.bare.overrides.0.is_empty()) {
+        let bare = &finding.ladder.bare.overrides;
+        held_out.nominal[finding.subject] = held_out.subjects[finding.subject].predict(&[], bare)?;
+    }
     let measured = Measured::new(plant, &held_out, &findings);
     let mut report = Report::new(verdict::verdict(&study, &findings));
     verdict::fill(&mut report, plant, &study, &findings);
@@ -93,6 +99,7 @@ pub fn diagnose(
     report.not_testable.extend(lone_clocks(&study, train));
     report.not_testable.extend(too_short(&study, &findings));
     report.not_testable.extend(still(&study));
+    report.not_testable.extend(states::untrained(&study, &held_out));
     Ok(Diagnosis { report, findings, held_out })
 }
 

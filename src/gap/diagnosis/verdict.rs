@@ -3,8 +3,8 @@
 use super::words::told_apart_by;
 use super::{Conclusion, Finding};
 use crate::gap::cause::{Alternative, Bounds, Candidate};
-use crate::gap::report::{Cause, FittedParameter, Member, Remainder, Report, Rival, Verdict};
-use crate::gap::{Study, Subject};
+use crate::gap::report::{Cause, FittedNominal, FittedParameter, Member, Remainder, Report, Rival, Verdict};
+use crate::gap::{Overrides, Study, Subject};
 use crate::plant::Plant;
 use crate::prototype::quantity::si_unit;
 use crate::value::Quantity;
@@ -73,6 +73,7 @@ pub(super) fn fill(report: &mut Report, plant: &Plant, study: &Study, findings: 
     for finding in explaining() {
         let subject = &study.subjects[finding.subject];
         let site = Site { plant, subject };
+        report.fitted.extend(site.fitted(&finding.ladder.best.overrides));
         for answer in &finding.answers {
             let first: usize = finding.ladder.best.set[..answer.place].iter().map(|c| c.free.len()).sum();
             let candidate = &finding.ladder.best.set[answer.place];
@@ -148,6 +149,23 @@ impl Site<'_> {
         }
     }
 
+    /// The nominal parameters that were fitted beside the causes.
+    fn fitted(&self, overrides: &Overrides) -> Vec<FittedNominal> {
+        let instance = self.subject.id.instance(self.plant);
+        let task = (instance.tasks.len() > 1).then(|| self.subject.id.task(self.plant).name.as_str());
+        let values = overrides.0.iter().filter_map(|(name, value)| {
+            let nominal = self.subject.parameters.number(name);
+            (nominal != *value).then(|| FittedNominal {
+                device: instance.name.clone(),
+                parameter: component(task, Some(name)).unwrap_or_default(),
+                nominal,
+                value: *value,
+                unit: self.nominal_unit(Some(name)),
+            })
+        });
+        values.collect()
+    }
+
     fn cause(&self, candidate: &Candidate, bounds: &[Bounds], others: &[Alternative], weight: f64) -> Cause {
         let Member { device, component, effect, place } = self.member(candidate);
         let same = others.iter().filter(|other| other.is_same).map(|other| self.member(other.candidate()));
@@ -193,22 +211,36 @@ impl Site<'_> {
         free.chain(fixed).collect()
     }
 
+    fn is_rotary(&self) -> bool {
+        self.subject.parameters.0.contains_key("motion") && self.subject.parameters.text("motion") == "rotary"
+    }
+
+    /// The SI unit of a quantity that is one thing on a linear device and another on a rotary one.
+    fn si_unit(&self, quantities: &[Quantity]) -> Option<String> {
+        // Of a gain that is one thing on a speed's error and another on a position's, the latter stand last.
+        let is_on_position = quantities.len() > 2
+            && self.subject.parameters.0.contains_key("loop")
+            && self.subject.parameters.text("loop") == "proportional";
+        let at = usize::from(self.is_rotary()) + if is_on_position { 2 } else { 0 };
+        quantities.get(at.min(quantities.len().saturating_sub(1))).map(|quantity| si_unit(*quantity).symbol.to_owned())
+    }
+
+    /// The SI unit of a nominal parameter.
+    fn nominal_unit(&self, name: Option<&str>) -> String {
+        let parameter = name.and_then(|name| self.subject.kind.parameter(name));
+        parameter.and_then(|parameter| self.si_unit(parameter.quantities)).unwrap_or_else(|| "1".to_owned())
+    }
+
     /// The SI unit of a parameter: its own, of a parameter's value the parameter's, of a sensor's the signal's.
     fn unit(&self, candidate: &Candidate, name: &str) -> String {
-        let is_rotary =
-            self.subject.parameters.0.contains_key("motion") && self.subject.parameters.text("motion") == "rotary";
-        let of = |quantities: &[Quantity]| {
-            let at = usize::from(is_rotary).min(quantities.len().saturating_sub(1));
-            quantities.get(at).map(|quantity| si_unit(*quantity).symbol.to_owned())
-        };
+        let of = |quantities: &[Quantity]| self.si_unit(quantities);
         let declared = candidate.effect.parameters.iter().find(|parameter| parameter.name == name);
         let Some(declared) = declared else { return "1".to_owned() };
         if candidate.is_parameter_error() {
-            let parameter = candidate.component.as_deref().and_then(|name| self.subject.kind.parameter(name));
-            return parameter.and_then(|parameter| of(parameter.quantities)).unwrap_or_else(|| "1".to_owned());
+            return self.nominal_unit(candidate.component.as_deref());
         }
         match (candidate.effect.id, declared.quantities) {
-            ("jerk-limit", _) => if is_rotary { "rad/s3" } else { "m/s3" }.to_owned(),
+            ("jerk-limit", _) => if self.is_rotary() { "rad/s3" } else { "m/s3" }.to_owned(),
             ("offset" | "hysteresis" | "blind-range" | "drift" | "stuck", [Quantity::One]) => {
                 let port = candidate.component.as_deref().and_then(|name| self.subject.kind.port(name));
                 let unit = port

@@ -5,13 +5,15 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
 
 use super::{Fitted, Range};
 
 /// Searches from `start`, the first cloud as wide as the ranges' scales, computing the cost about `budget` times; trials outside
-/// the bounds are moved onto them, and cost what lies there. What it draws follows from `seed`.
+/// the bounds are moved onto them, and cost what lies there. The result is never worse than `start`. What it draws follows from
+/// `seed`.
 pub fn evolve(
-    cost: &mut dyn FnMut(&[f64]) -> Option<f64>,
+    cost: &(dyn Fn(&[f64]) -> Option<f64> + Sync),
     start: &[f64],
     ranges: &[Range],
     seed: u64,
@@ -19,16 +21,17 @@ pub fn evolve(
 ) -> Fitted {
     let mut cloud = Cloud::new(start, ranges);
     let mut dice = ChaCha8Rng::seed_from_u64(seed);
-    let mut best = (f64::INFINITY, start.to_vec());
-    let mut evaluations = 0;
+    let mut best = (cost(start).unwrap_or(f64::INFINITY), start.to_vec());
+    let mut evaluations = 1;
     while evaluations < budget && cloud.width > 1e-9 {
         let Some(mut trials) = cloud.trials(&mut dice) else { break };
-        for trial in &mut trials {
-            let at: Vec<f64> = cloud.point(&trial.step);
-            evaluations += 1;
-            trial.cost = cost(&at).filter(|cost| !cost.is_nan()).unwrap_or(f64::INFINITY);
+        trials.par_iter_mut().for_each(|trial| {
+            trial.cost = cost(&cloud.point(&trial.step)).filter(|cost| !cost.is_nan()).unwrap_or(f64::INFINITY);
+        });
+        evaluations += trials.len() as u32;
+        for trial in &trials {
             if trial.cost < best.0 {
-                best = (trial.cost, at);
+                best = (trial.cost, cloud.point(&trial.step));
             }
         }
         cloud.learn(trials);
@@ -139,23 +142,23 @@ mod tests {
     #[test]
     fn a_bent_valley_is_followed() {
         let ranges = [Range { least: -5.0, greatest: 5.0, scale: 0.5 }; 2];
-        let mut cost = |at: &[f64]| Some(100.0 * (at[1] - at[0] * at[0]).powi(2) + (1.0 - at[0]).powi(2));
-        let found = evolve(&mut cost, &[-1.0, 1.0], &ranges, 1, 3000);
+        let cost = |at: &[f64]| Some(100.0 * (at[1] - at[0] * at[0]).powi(2) + (1.0 - at[0]).powi(2));
+        let found = evolve(&cost, &[-1.0, 1.0], &ranges, 1, 3000);
         assert!((found.at[0] - 1.0).abs() < 1e-3 && (found.at[1] - 1.0).abs() < 1e-3, "{found:?}");
     }
 
     #[test]
     fn ruggedness_does_not_hold_it_up() {
         let ranges = [Range { least: -20.0, greatest: 20.0, scale: 3.0 }; 3];
-        let mut cost = |at: &[f64]| Some(at.iter().map(|x| x * x + 3.0 * (1.0 - (3.0 * x).cos())).sum());
-        let found = evolve(&mut cost, &[4.0, -5.0, 6.0], &ranges, 3, 4000);
+        let cost = |at: &[f64]| Some(at.iter().map(|x| x * x + 3.0 * (1.0 - (3.0 * x).cos())).sum());
+        let found = evolve(&cost, &[4.0, -5.0, 6.0], &ranges, 3, 4000);
         assert!(found.cost < 13.0, "{found:?}");
     }
 
     #[test]
     fn the_same_seed_finds_the_same() {
         let ranges = [Range { least: 0.0, greatest: 1.0, scale: 0.2 }; 2];
-        let find = |seed| evolve(&mut |at: &[f64]| Some(at[0] - at[1]), &[0.5, 0.5], &ranges, seed, 200).at;
+        let find = |seed| evolve(&|at: &[f64]| Some(at[0] - at[1]), &[0.5, 0.5], &ranges, seed, 200).at;
         assert_eq!(find(7), find(7));
         assert_eq!(find(7), [0.0, 1.0]);
     }

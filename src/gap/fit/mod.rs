@@ -6,12 +6,14 @@
 mod evolution;
 mod least_squares;
 mod profile;
+mod rugged;
 mod search;
 mod simplex;
 
 pub use evolution::evolve;
 pub use least_squares::least_squares;
 pub use profile::{Interval, Side, profile};
+pub use rugged::rugged;
 pub use search::{Effort, search};
 pub use simplex::simplex;
 

@@ -52,6 +52,18 @@ pub struct FittedParameter {
     pub not_identifiable: bool,
 }
 
+/// A nominal parameter of a device with a cause: what it is within its tolerance, as it was fitted beside the cause.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FittedNominal {
+    pub device: String,
+    /// As a `parameter-error`'s component names it.
+    pub parameter: String,
+    /// As the model has it, in `unit`, which is SI.
+    pub nominal: f64,
+    pub value: f64,
+    pub unit: String,
+}
+
 /// Something else that could cause the gap.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rival {

@@ -17,11 +17,11 @@ mod whereabouts;
 use serde::{Deserialize, Serialize};
 
 pub use answer::{Answer, on, words};
-pub use cause::{Cause, FittedParameter, Member, Rival};
+pub use cause::{Cause, FittedNominal, FittedParameter, Member, Rival};
 pub use read::ReportError;
 pub use shrink::{Beside, Consequence, DeviceConsequence, Remainder, Shrink};
 pub use verdict::Verdict;
-pub use whereabouts::{DeviceGap, EdgeCounts, Gap, NormalisedRms, Regime, SignalGap, SignalKind};
+pub use whereabouts::{DeviceGap, EdgeCounts, Gap, InWindows, NormalisedRms, Regime, SignalGap, SignalKind};
 
 /// The name and version of the contract.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,6 +62,9 @@ pub struct Report {
     /// Beyond the contract: signals on which model and trace do not agree.
     #[serde(default, skip_serializing_if = "SignalNames::is_empty")]
     pub signals: SignalNames,
+    /// Beyond the contract: nominal parameters that were fitted within their tolerances, with the causes in place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fitted: Vec<FittedNominal>,
     /// Beyond the contract: what these traces do not excite.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub not_testable: Vec<NotTestable>,
@@ -90,6 +93,7 @@ impl Report {
             incomplete: false,
             made_from: None,
             signals: SignalNames::default(),
+            fitted: Vec::new(),
             not_testable: Vec::new(),
             clocks: Vec::new(),
             left_out: Vec::new(),

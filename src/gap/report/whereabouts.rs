@@ -61,6 +61,17 @@ pub struct SignalGap {
     pub missing: Option<EdgeCounts>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extra: Option<EdgeCounts>,
+    /// Beyond the contract, and for levels of a device that is taken up again and again where its machine was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub in_windows: Option<InWindows>,
+}
+
+/// How far a level is off where its device is taken up again after every so many seconds, RMS in the signal's unit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InWindows {
+    pub every_s: f64,
+    pub before: f64,
+    pub after: f64,
 }
 
 /// How a signal is compared.
