@@ -17,7 +17,7 @@ use crate::gap::cause::Progress;
 use crate::gap::diagnosis::{self, Diagnosis, Options, Split};
 use crate::gap::page::page;
 use crate::gap::production::{self, Counters, Observation};
-use crate::gap::report::{Consequence, MadeFrom, NotTestable, Report};
+use crate::gap::report::{Consequence, MadeFrom, NotTestable, Report, Verdict};
 use crate::gap::{Recording, effects_xml, segments};
 use crate::plant::{ModelError, Plant, effects_file};
 use crate::run::{self, Stop, model, observe};
@@ -273,6 +273,12 @@ fn summary(report: &Report) -> String {
     let mut text = format!("verdict  {}{}\n", report.verdict, if report.incomplete { " (incomplete)" } else { "" });
     for (name, sentence) in [("where", said.place), ("which", said.cause), ("how far", said.shrink)] {
         text.push_str(&format!("{name:7}  {sentence}\n"));
+    }
+    // Of a verdict of its own this is said already; what no effect names holds for all of them.
+    let untold = report.not_testable.iter().filter(|entry| entry.effect.is_none());
+    for entry in untold.filter(|_| report.verdict != Verdict::NotTestable) {
+        let device = entry.device.as_ref().map(|device| format!("{device}: ")).unwrap_or_default();
+        text.push_str(&format!("untold   {device}{}; needed: {}.\n", entry.reason, entry.needs));
     }
     text
 }

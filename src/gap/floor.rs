@@ -15,6 +15,9 @@ pub struct Floor {
     /// How far even a good model is off, standard deviation, SI: of a device that is taken up again and again, whose errors
     /// grow from one time to the next. It belongs to the cost, not to the floor. 0 of every other.
     pub reach: f64,
+    /// How far a law that is not all of the truth stays off where nothing else is wrong, standard deviation, SI: 0 of a law
+    /// that explains the recording. Part of what a fit weighs differences by, and of no figure that is reported.
+    pub misfit: f64,
 }
 
 /// Of a step, how much of it is taken for noise at least: far less does not show.
@@ -32,7 +35,8 @@ impl Floor {
     /// The standard deviation that a cost is computed with, where the signal changes by `slope` in a second.
     pub fn sigma(&self, slope: f64) -> f64 {
         let noise = self.noise.max(LEAST_NOISE * self.step);
-        (noise * noise + (slope * self.timing).powi(2) + self.reach * self.reach).sqrt()
+        let law = self.reach.hypot(self.misfit);
+        (noise * noise + (slope * self.timing).powi(2) + law * law).sqrt()
     }
 
     /// The root mean square of the difference where nothing is wrong and the signal moves with `slope`, SI.
@@ -60,7 +64,7 @@ impl Floor {
         }
         let still = at_rest(grid, recorded, predicted, step);
         let noise = if still.is_nan() { moving(recorded, predicted, step) } else { still };
-        Floor { step, noise, timing, reach: 0.0 }
+        Floor { step, noise, timing, ..Floor::default() }
     }
 }
 
@@ -100,7 +104,7 @@ impl FloorCosts {
 }
 
 /// The lattice that values lie on: the smallest step between two distinct ones, at least a millionth of their range.
-fn step_of(values: &[f64]) -> f64 {
+pub(super) fn step_of(values: &[f64]) -> f64 {
     let mut sorted: Vec<f64> = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.dedup();

@@ -51,6 +51,7 @@ mod study;
 mod subject;
 mod surroundings;
 mod tick;
+mod tolerance;
 mod track;
 mod world;
 

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
-use super::floor::Floor;
 use super::parts::shifted;
 use super::prediction::PredictedEdge;
+use super::tolerance::Weighed;
 use super::track::Track;
 
 /// What a prediction costs: −2 ln of its likelihood, less that of a perfect one; smaller is better, and a difference of two is
@@ -140,10 +140,17 @@ impl SignalScore {
     }
 
     /// A level whose `predicted` values stand for those of its track.
-    pub(super) fn level(place: (usize, usize), track: &Track, predicted: &[f64], floor: Floor, is_count: bool) -> Self {
-        let grid = &track.grid;
+    pub(super) fn level(
+        place: (usize, usize),
+        track: &Track,
+        predicted: &[f64],
+        weighed: &Weighed<'_>,
+        is_count: bool,
+    ) -> Self {
+        let (grid, floor) = (&track.grid, weighed.floor);
         let half = if is_count { 0.5 } else { 0.0 };
-        let shows_noise = floor.shows_noise();
+        // A rest that counts by the second is not counted once.
+        let tells_anew = floor.shows_noise() || floor.misfit > 0.0;
         let mut level = LevelScore::default();
         let (mut squares, mut floors) = (0.0, 0.0);
         let costs = floor.costs();
@@ -157,7 +164,7 @@ impl SignalScore {
             let slope = slope(grid.instants.as_slice(), track.first, predicted, k);
             let difference = recorded + half - predicted_here;
             // What is expected to be off anyway is off at rest as well, and says so for as long as it lasts.
-            let is_rest = !shows_noise && floor.reach == 0.0 && k > 0 && {
+            let is_rest = !tells_anew && floor.reach == 0.0 && k > 0 && {
                 let before = track.values[k - 1] - predicted[k - 1];
                 let (now, step) = (recorded - predicted_here, floor.step);
                 let is_still =
@@ -166,9 +173,10 @@ impl SignalScore {
                 let repeats = (now - before).abs() < 1e-2 * step && (now + half).abs() < 0.55 * step;
                 is_still || repeats
             };
+            let weight = weighed.weight(k);
             let cost = match is_rest {
                 true => 0.0,
-                false => cost::level(recorded + half, *predicted_here, floor.step, floor.sigma(slope)),
+                false => weight * cost::level(recorded + half, *predicted_here, floor.step, floor.sigma(slope)),
             };
             level.at.push(grid.instants[index]);
             level.cost.push(cost);
@@ -178,7 +186,7 @@ impl SignalScore {
             floors += floor.rms(slope).powi(2);
             if !is_rest {
                 let (mean, variance) = costs.at((predicted_here - lattice) / floor.step);
-                floor_cost = (floor_cost.0 + mean, floor_cost.1 + variance);
+                floor_cost = (floor_cost.0 + weight * mean, floor_cost.1 + weight * weight * variance);
             }
         }
         let count = level.at.len().max(1) as f64;

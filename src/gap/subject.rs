@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
 use super::beginning;
-use super::floor::Floor;
+use super::floor::{Floor, step_of};
 use super::grid::median;
 use super::overrides::Overrides;
 use super::parts::{Barrier, likeliest_shifts};
@@ -15,6 +15,7 @@ use super::restarts::Restarts;
 use super::score::{Score, SignalScore};
 use super::study::Grids;
 use super::surroundings;
+use super::tolerance::rests;
 use super::track::Track;
 use super::world::Script;
 use crate::device::Device;
@@ -61,6 +62,8 @@ pub struct Run {
     pub floors: Vec<Floor>,
     /// How far the edges of each signal may be off in time, standard deviation, s, in the same order.
     pub edge_sigmas: Vec<f64>,
+    /// Of each level, in the same order, where it rests.
+    pub(super) rests: Vec<Vec<bool>>,
     /// What surrounds the device: parts that pass, as far as they were recorded.
     pub script: Arc<Script>,
     /// Whether the recording starts under way, so that the device is given time to settle at its first commands.
@@ -126,15 +129,17 @@ impl Subject {
         let commanded = ports(plant, id, Direction::Command);
         let runs = recordings.iter().zip(grids).map(|(recording, grids)| {
             let track = |info: &SignalInfo| track_of(plant, info, recording, grids);
+            let tracks: Vec<Option<Track>> = signals.iter().map(track).collect();
             Run {
                 recording: recording.name.clone(),
                 ends: recording.ends,
-                commands: commands_of(plant, &commanded, recording),
+                commands: commands_of(plant, (id.task(plant).kind, &commanded), (&signals, &tracks), recording),
                 settles: settles(plant, &commanded, recording),
                 resumes: recording.resumes,
-                tracks: signals.iter().map(track).collect(),
+                tracks,
                 floors: vec![Floor { step: 1.0, ..Floor::default() }; signals.len()],
                 edge_sigmas: vec![EDGE_SIGMA_S; signals.len()],
+                rests: vec![Vec::new(); signals.len()],
                 script: Arc::default(),
                 commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
@@ -240,8 +245,7 @@ impl Subject {
                 scores.extend(match &predicted[signal] {
                     Predicted::Nothing => None,
                     Predicted::Level(values) => {
-                        let floor = run.floors[signal];
-                        Some(SignalScore::level((signal, at), track, values, floor, info.is_count))
+                        Some(SignalScore::level((signal, at), track, values, &run.weighed(signal), info.is_count))
                     }
                     Predicted::Edges { edges, .. } => {
                         Some(SignalScore::edges((signal, at), track, edges, &shifts, run.edge_sigmas[signal]))
@@ -359,6 +363,7 @@ impl Subject {
                 };
                 let (recorded, predicted) = track.evident(values);
                 run.floors[signal] = Floor::of(&track.grid, &recorded, &predicted, timing, info.is_count);
+                run.rests[signal] = rests(track, values, run.floors[signal].step);
             }
         }
     }
@@ -434,12 +439,20 @@ fn is_sampled(recording: &Recording) -> bool {
     recording.header.commands == Commands::Sampled
 }
 
-fn commands_of(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Recording) -> Vec<(usize, Stamped)> {
+fn commands_of(
+    plant: &Plant,
+    (kind, commanded): (&KindDescriptor, &[(usize, RegisterId)]),
+    (signals, tracks): (&[SignalInfo], &[Option<Track>]),
+    recording: &Recording,
+) -> Vec<(usize, Stamped)> {
     let of = |(port, register): &(usize, RegisterId)| {
         let port = *port;
         let told = recording.values(*register);
         let is_level = plant.signal_map.signal(*register).kind == Kind::Level;
-        let told = if is_level && is_sampled(recording) { on_lines(told) } else { told.to_vec() };
+        let like = |info: &SignalInfo| kind.ports[info.port].quantities == kind.ports[port].quantities;
+        let alike = signals.iter().zip(tracks).filter(|(info, _)| like(info)).filter_map(|(_, track)| track.as_ref());
+        let finest = alike.map(|track| step_of(&track.values)).fold(f64::INFINITY, f64::min);
+        let told = if is_level && is_sampled(recording) { on_lines(told, finest) } else { told.to_vec() };
         told.into_iter().map(move |stamped| (port, stamped))
     };
     let mut commands: Vec<(usize, Stamped)> = commanded.iter().flat_map(of).collect();
@@ -447,21 +460,24 @@ fn commands_of(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Rec
     commands
 }
 
-/// Samples with the straight lines between them, in short steps that each hold their middle; not over a gap in time.
-fn on_lines(samples: &[Stamped]) -> Vec<Stamped> {
+/// Samples with the straight lines between them, in short steps that each hold their middle; not over a gap in time. The steps are
+/// lower than a quarter of `seen`, the finest step that reports of the quantity show, as far as ten of them do.
+fn on_lines(samples: &[Stamped], seen: f64) -> Vec<Stamped> {
     const MOST_PARTS: f64 = 10.0;
     const SHORT_S: f64 = 2e-3;
     const GAP: f64 = 5.0;
     let spans: Vec<f64> = samples.windows(2).map(|pair| pair[1].at - pair[0].at).collect();
     let usual = median(&spans).unwrap_or(0.0);
-    let mut on_lines = Vec::with_capacity(samples.len());
+    let mut on_lines = Vec::with_capacity(4 * samples.len());
     for pair in samples.windows(2) {
         let (from, to) = (pair[0], pair[1]);
         on_lines.push(from);
         if to.at - from.at > GAP * usual || from.value == to.value {
             continue;
         }
-        let parts = ((to.at - from.at) / SHORT_S).ceil().clamp(1.0, MOST_PARTS);
+        let height = (to.value - from.value).abs();
+        let by_height = if seen.is_finite() { (4.0 * height / seen).ceil() } else { MOST_PARTS };
+        let parts = ((to.at - from.at) / SHORT_S).ceil().min(by_height).clamp(1.0, MOST_PARTS);
         for part in 0..parts as u32 {
             let share = |of: f64| (f64::from(part) + of) / parts;
             let at = from.at + share(0.0) * (to.at - from.at) + 1e-9;
@@ -486,9 +502,10 @@ fn apart(run: &Run, signal: usize, pair: (&Predicted, &Predicted), residuals: &m
     let Some(track) = &run.tracks[signal] else { return };
     match pair {
         (Predicted::Level(one), Predicted::Level(other)) => {
-            let floor = run.floors[signal];
+            let (floor, weighed) = (run.floors[signal], run.weighed(signal));
             let sigma = floor.rms(0.0).max(floor.sigma(0.0));
-            residuals.extend(one.iter().zip(other).map(|(a, b)| (a - b) / sigma));
+            let pairs = one.iter().zip(other).enumerate();
+            residuals.extend(pairs.map(|(k, (a, b))| weighed.weight(k).sqrt() * (a - b) / sigma));
         }
         (Predicted::Edges { edges: one, .. }, Predicted::Edges { edges: other, .. }) => {
             let sigma = run.edge_sigmas[signal].hypot(track.grid.cycle / 12.0_f64.sqrt());

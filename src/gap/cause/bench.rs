@@ -72,6 +72,16 @@ impl Trial {
 }
 
 impl Bench<'_> {
+    /// The same with the device as `subject` weighs it.
+    pub fn with<'b>(&'b self, subject: &'b Subject) -> Bench<'b> {
+        Bench { subject, nuisances: self.nuisances.clone(), stop: self.stop }
+    }
+
+    /// The device, weighed by what `trial` leaves of it.
+    pub fn tolerant(&self, trial: &Trial) -> Option<Subject> {
+        Some(self.subject.tolerant(&self.predict(&trial.set, &trial.at)?))
+    }
+
     /// Whether the answer is wanted now.
     pub fn is_stopped(&self) -> bool {
         (self.stop)()

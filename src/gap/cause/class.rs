@@ -78,7 +78,8 @@ fn answer(
         ladder.singles.clone()
     } else {
         let without = without(bench, best, place);
-        without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost - ladder.floor.0, is_asked, tell))
+        let is_near = |candidate: &Candidate| ladder.near.iter().any(|near| near.is_same(candidate));
+        without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost, is_asked, &is_near, tell))
     };
     let inflation = best.inflation();
     let near: Vec<Trial> = others

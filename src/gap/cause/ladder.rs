@@ -11,16 +11,21 @@ use super::library;
 use super::unseen::unseen;
 use crate::gap::fit::{Effort, Residuals, least_squares, search, sum_of_squares};
 use crate::gap::statistics::{Draws, least_gain, quantile};
-use crate::gap::{Prediction, Score};
+use crate::gap::{Prediction, Score, Subject};
 
-/// The most effects of one device.
-const MOST_EFFECTS: usize = 3;
+/// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
+const MOST_EFFECTS: usize = 6;
 /// Of the excess, what an effect must explain at least: the lower bound of it.
 const LEAST_SHARE: f64 = 0.03;
+/// The same of what the effects before it leave.
+const LEAST_SHARE_OF_REST: f64 = 0.2;
 /// Draws of the block bootstrap.
 pub const DRAWS: usize = 400;
 /// What a candidate must explain to be looked at closely.
 const PROMISING: f64 = 0.02;
+
+/// What share of the best one's gain a candidate must have for it to rival it once all is fitted anew.
+const NEAR_THE_BEST: f64 = 0.3;
 
 /// How far a search is.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,14 +45,18 @@ pub type Tell<'a> = dyn Fn(&Progress) + Sync + 'a;
 /// What climbing found.
 #[derive(Clone, Debug)]
 pub struct Ladder {
-    /// The model with its nuisances fitted and no effect added.
+    /// The model with its nuisances fitted and no effect added, weighed by noise alone.
     pub bare: Trial,
-    /// What the deviance would be where nothing is wrong, and the variance of that.
+    /// What its deviance would be where nothing is wrong, and the variance of that.
     pub floor: (f64, f64),
     /// The best set; the bare model where no effect is worth having.
     pub best: Trial,
-    /// Every candidate alone, the best first.
+    /// The device, weighed by what the best set leaves: what `best` and `singles` were scored with.
+    pub subject: Subject,
+    /// Where the best set is of one effect, every candidate alone, the best first.
     pub singles: Vec<Trial>,
+    /// Candidates that were worth a part of what the best was, on any rung: what may rival an effect of the best set.
+    pub near: Vec<Candidate>,
     /// How many candidates were tried in all.
     pub tried: usize,
     /// In how many blocks of time the gap lies that an effect would explain, where they are too few to be sure of it.
@@ -75,16 +84,31 @@ pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: 
     let prediction = bench.predict(&[], &bare.at)?;
     let score = bench.subject.score(&prediction);
     let floor = floor(&score);
-    let mut ladder = Ladder { best: bare.clone(), bare, floor, singles: Vec::new(), tried: 0, too_few_blocks: None };
+    let subject = bench.subject.clone();
+    let mut ladder = Ladder {
+        best: bare.clone(),
+        bare,
+        floor,
+        subject,
+        singles: vec![],
+        near: vec![],
+        tried: 0,
+        too_few_blocks: None,
+    };
     if ladder.excess() < least_gain(1, 1) {
         return Some(ladder);
     }
+    ladder.subject = bench.subject.tolerant(&prediction);
+    ladder.best = bench.with(&ladder.subject).trial(&[], ladder.bare.at.clone())?;
     while ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
         if !step(bench, &mut ladder, is_asked, tell) {
             break;
         }
     }
     drop_idle(bench, &mut ladder);
+    if ladder.best.set.len() == 1 {
+        weigh_singles(bench, &mut ladder);
+    }
     Some(ladder)
 }
 
@@ -97,24 +121,36 @@ pub fn floor(score: &Score) -> (f64, f64) {
 /// One rung: whether it was worth it.
 fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> bool {
     let below = ladder.best.clone();
-    let left = below.cost - ladder.floor.0;
-    if left < least_gain(1, 1) * below.inflation() {
+    let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return false };
+    if plain.cost - ladder.floor.0 < least_gain(1, 1) * plain.inflation() {
         return false;
     }
-    let rivals = rung(bench, &below, left, is_asked, tell);
+    let subject = ladder.subject.clone();
+    let weighed = bench.with(&subject);
+    let excess = below.cost - floor_of(&weighed, &below);
+    let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
-    let Some(next) = choose(bench, &below, &rivals) else { return false };
-    let is_first = below.set.is_empty();
-    if is_first {
+    let Some((next, subject)) = choose(bench, &weighed, &below, &rivals) else { return false };
+    let gain = |trial: &Trial| below.cost - trial.cost;
+    let most = rivals.first().map_or(0.0, gain);
+    let near = rivals.iter().filter(|trial| gain(trial) > NEAR_THE_BEST * most);
+    ladder.near.extend(near.filter_map(|trial| trial.set.last().cloned()));
+    if below.set.is_empty() {
         ladder.singles = rivals;
     }
-    let is_worth_it = is_worth_having(bench, &below, &next, ladder);
+    let is_worth_it = is_worth_having(&bench.with(&subject), &below, &next, ladder);
     if is_worth_it {
-        ladder.best = next;
-    } else if is_first {
-        ladder.too_few_blocks = too_few_blocks(&below, &next, ladder);
+        (ladder.best, ladder.subject) = (next, subject);
+    } else if below.set.is_empty() {
+        ladder.too_few_blocks = too_few_blocks(&bench.with(&subject), &below, &next, ladder);
     }
     is_worth_it
+}
+
+/// What a trial's deviance would be where nothing is wrong.
+fn floor_of(bench: &Bench<'_>, trial: &Trial) -> f64 {
+    let prediction = bench.predict(&trial.set, &trial.at);
+    prediction.map_or(0.0, |prediction| floor(&bench.subject.score(&prediction)).0)
 }
 
 /// Below this share of the excess an effect would not be the answer, however sure.
@@ -124,28 +160,30 @@ const SHARE_OF_AN_ANSWER: f64 = 0.3;
 const LEAST_BLOCKS: f64 = 3.7;
 
 /// How many blocks hold what `next` gains over `below`, where it gains enough to be the answer and they are too few to be sure.
-fn too_few_blocks(below: &Trial, next: &Trial, ladder: &Ladder) -> Option<f64> {
+fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> Option<f64> {
+    let below = &bench.trial(&below.set, below.at.clone())?;
     let gains: Vec<f64> = below.blocks.iter().zip(&next.blocks).map(|(below, next)| (below - next).max(0.0)).collect();
     let (sum, squares) = gains.iter().fold((0.0, 0.0), |(sum, squares), gain| (sum + gain, squares + gain * gain));
     let further = next.parameters() - below.parameters();
     let gains_enough = below.cost - next.cost >= least_gain(further, ladder.tried) * next.inflation();
     let blocks = sum * sum / f64::max(squares, f64::MIN_POSITIVE);
-    let explains = (below.cost - next.cost) / ladder.excess().max(1.0);
+    let explains = (below.cost - next.cost) / (below.cost - floor_of(bench, below)).max(1.0);
     (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
 }
 
-/// Every candidate beside the effects of `below`, those held as they are; the best first.
+/// Every candidate that is admitted beside the effects of `below`, those held as they are; the best first.
 pub fn rung(
     bench: &Bench<'_>,
     below: &Trial,
     excess: f64,
     is_asked: &(dyn Fn(&str) -> bool + Sync),
+    is_admitted: &dyn Fn(&Candidate) -> bool,
     tell: &Tell<'_>,
 ) -> Vec<Trial> {
     let Some(prediction) = bench.predict(&below.set, &below.at) else { return Vec::new() };
     let score = bench.subject.score(&prediction);
     let mut library = candidates(bench, &prediction, &score, is_asked);
-    library.retain(|candidate| !below.set.iter().any(|there| there.is_same(candidate)));
+    library.retain(|candidate| is_admitted(candidate) && !below.set.iter().any(|there| there.is_same(candidate)));
     let tried = AtomicUsize::new(0);
     let best = Mutex::new((0.0, "none yet".to_owned()));
     let fitted = library.par_iter().filter_map(|candidate| {
@@ -239,22 +277,63 @@ fn score_starts<'c>(residuals: &Residuals<'_>, candidate: &'c Candidate, without
 }
 
 /// The best of the rung, refitted with everything free: what costs least, where a further parameter and a nominal parameter that
-/// is wrong have to be worth it.
-fn choose(bench: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Option<Trial> {
+/// is wrong have to be worth it; with the device as it weighs it.
+fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Option<(Trial, Subject)> {
+    let handicapped = |trial: &Trial, inflation: f64| trial.cost + handicap(trial, below.set.len()) * inflation;
     let inflation = rivals.first()?.inflation();
-    let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * inflation;
     let mut order: Vec<&Trial> = rivals.iter().collect();
-    order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
-    // What a rugged deviance was fitted to was fitted with everything free.
-    let refit = |trial: &&Trial| match bench.is_rugged() || (below.set.is_empty() && bench.nuisances.is_empty()) {
-        true => Some((*trial).clone()),
-        false => bench
-            .fit(&trial.set, std::slice::from_ref(&trial.at), Effort { starts: 1, budget: 60 })
-            .or(Some((*trial).clone())),
+    order.sort_by(|a, b| handicapped(a, inflation).total_cmp(&handicapped(b, inflation)));
+    let first: Vec<&Trial> = order.into_iter().take(3).collect();
+    let settled: Vec<(Trial, Subject)> =
+        first.par_iter().filter_map(|trial| settle(bench, weighed, trial, below.set.is_empty())).collect();
+    // They are compared as the first of them weighs the device.
+    let common = bench.with(&settled.first()?.1);
+    let score = |(trial, _): &(Trial, Subject)| {
+        let scored = common.trial(&trial.set, trial.at.clone());
+        scored.map_or(f64::INFINITY, |scored| handicapped(&scored, inflation))
     };
-    let mut refitted: Vec<Trial> = order.into_par_iter().take(3).filter_map(|trial| refit(&trial)).collect();
-    refitted.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
-    refitted.into_iter().next()
+    let scores: Vec<f64> = settled.iter().map(score).collect();
+    let best = (0..settled.len()).min_by(|a, b| scores[*a].total_cmp(&scores[*b]))?;
+    settled.into_iter().nth(best)
+}
+
+/// Refits a trial with everything free, the device weighed by what the trial leaves, until that is one.
+fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: bool) -> Option<(Trial, Subject)> {
+    const ROUNDS: u32 = 3;
+    let (mut trial, mut subject) = (trial.clone(), weighed.subject.clone());
+    // Alone and weighed as it is, everything was free already; what a rugged deviance was fitted to was as well.
+    let mut is_fitted = bench.is_rugged() || (is_first && bench.nuisances.is_empty());
+    for _ in 0..ROUNDS {
+        if !is_fitted {
+            let effort = Effort { starts: 1, budget: 60 };
+            let fitted = bench.with(&subject).fit(&trial.set, std::slice::from_ref(&trial.at), effort);
+            trial = fitted.unwrap_or(trial);
+        }
+        let next = bench.tolerant(&trial)?;
+        if next.weighs_as(&subject) {
+            break;
+        }
+        (subject, is_fitted) = (next, false);
+    }
+    let trial = bench.with(&subject).trial(&trial.set, trial.at)?;
+    Some((trial, subject))
+}
+
+/// The candidates alone as the device is weighed at last; those that explain the most fitted anew.
+fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
+    const MOST: usize = 12;
+    let weighed = bench.with(&ladder.subject);
+    let effort = Effort { starts: 1, budget: 60 };
+    let anew = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
+        let there = weighed.trial(&trial.set, trial.at.clone())?;
+        if rank >= MOST || there.cost == trial.cost {
+            return Some(there);
+        }
+        weighed.fit(&trial.set, std::slice::from_ref(&trial.at), effort).or(Some(there))
+    });
+    let mut anew: Vec<Trial> = anew.collect();
+    anew.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    ladder.singles = anew;
 }
 
 /// What a candidate beside `below` others has to gain over one with one parameter that is an effect.
@@ -265,32 +344,39 @@ pub fn handicap(trial: &Trial, below: usize) -> f64 {
     18.0 * further + if is_error { 18.0 } else { 0.0 }
 }
 
-/// Whether `next` gains over `below` more than chance, a share worth having, and moves anything at all.
+/// Whether `next` gains over `below` more than chance, a share worth having, and moves anything at all. The device is weighed by
+/// what `next` leaves.
 fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+    let Some(below) = bench.trial(&below.set, below.at.clone()) else { return false };
     let gain = below.cost - next.cost;
     let further = next.parameters() - below.parameters();
-    if gain < least_gain(further, ladder.tried) * next.inflation() || share(bench, below, next, ladder)[0] < LEAST_SHARE
-    {
+    if gain < least_gain(further, ladder.tried) * next.inflation() || !is_a_share(bench, &below, next, ladder) {
         return false;
     }
     let predictions = bench.predict(&below.set, &below.at).zip(bench.predict(&next.set, &next.at));
     predictions.is_some_and(|(below, next)| bench.differ(&below, &next))
 }
 
-/// Which share of the bare model's excess `next` takes away beyond `below`, on blocks that the parameters of neither saw: its
-/// interval by block bootstrap.
-fn share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> [f64; 2] {
+/// Whether `next` surely takes away a share worth having beyond `below`: of the bare model's excess, or, where that is explained but
+/// for a part of the motion, of what `below` leaves; on blocks that the parameters of neither
+/// saw. By block bootstrap.
+fn is_a_share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+    let Some(bare) = bench.trial(&[], ladder.bare.at.clone()) else { return false };
+    let floor = floor_of(bench, &bare);
     let draws = Draws::new(below.blocks.len(), DRAWS, 1);
-    let floor = ladder.floor.0;
     let kept_back = |trial: &Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
-    let shares = draws.each(&[&ladder.bare.blocks, &kept_back(below), &kept_back(next)], |sums| {
-        (sums[1] - sums[2]) / (sums[0] - floor).max(1.0)
-    });
-    [quantile(&shares, 0.025), quantile(&shares, 0.975)]
+    let (before, after) = (kept_back(below), kept_back(next));
+    let surely = |whole: &[f64]| {
+        let shares = draws.each(&[whole, &before, &after], |sums| (sums[1] - sums[2]) / (sums[0] - floor).max(1.0));
+        quantile(&shares, 0.025)
+    };
+    surely(&bare.blocks) >= LEAST_SHARE || (!bench.is_rugged() && surely(&before) >= LEAST_SHARE_OF_REST)
 }
 
 /// Takes out what is no longer worth having once the others stand beside it.
 fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) {
+    let subject = ladder.subject.clone();
+    let weighed = bench.with(&subject);
     let mut place = 0;
     while ladder.best.set.len() > 1 && place < ladder.best.set.len() && !bench.is_stopped() {
         let best = &ladder.best;
@@ -300,9 +386,9 @@ fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) {
         let mut at = best.at[..best.parameters()].to_vec();
         at.drain(before..before + dropped.free.len());
         at.extend(bench.nominal(&set));
-        let without = bench.fit(&set, &[at], Effort { starts: 1, budget: 60 });
+        let without = weighed.fit(&set, &[at], Effort { starts: 1, budget: 60 });
         match without {
-            Some(without) if !is_worth_having(bench, &without, best, ladder) => ladder.best = without,
+            Some(without) if !is_worth_having(&weighed, &without, best, ladder) => ladder.best = without,
             _ => place += 1,
         }
     }

@@ -45,7 +45,7 @@ pub fn misfit(score: &Score) -> f64 {
 
 /// What the best answer of a ladder leaves.
 pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
-    let best = &ladder.best;
+    let best = &bench.trial(&ladder.best.set, ladder.best.at.clone())?;
     let prediction = bench.predict(&best.set, &best.at)?;
     let score = bench.subject.score(&prediction);
     let bare = bench.subject.score(&bench.predict(&[], &ladder.bare.at)?);

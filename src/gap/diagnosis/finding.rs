@@ -82,10 +82,12 @@ pub(super) fn find(
         return Some(finding);
     }
     finding.remainder = remainder(&bench, &finding.ladder)?;
-    finding.answers = answers(&bench, &finding.ladder, options.is_asked, options.tell);
+    let weighing = finding.ladder.subject.clone();
+    let weighed = bench.with(&weighing);
+    finding.answers = answers(&weighed, &finding.ladder, options.is_asked, options.tell);
     name_the_plainest(&mut finding);
     let tick = study.ticks.iter().copied().fold(0.0, f64::max);
-    finding.bounds = intervals(&bench, &finding.ladder.best, tick);
+    finding.bounds = intervals(&weighed, &finding.ladder.best, tick);
     finding.conclusion = match () {
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
         () if finding.remainder.is_significant => Conclusion::Partial,

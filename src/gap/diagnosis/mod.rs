@@ -8,6 +8,7 @@ mod finding;
 mod held_out;
 mod shrink;
 mod states;
+mod untrained;
 mod verdict;
 mod words;
 
@@ -88,6 +89,7 @@ pub fn diagnose(
         let bare = &finding.ladder.bare.overrides;
         held_out.nominal[finding.subject] = held_out.subjects[finding.subject].predict(&[], bare)?;
     }
+    let too_fast = untrained::leave_out(&mut held_out, &study);
     let measured = Measured::new(plant, &held_out, &findings);
     let mut report = Report::new(verdict::verdict(&study, &findings));
     verdict::fill(&mut report, plant, &study, &findings);
@@ -97,10 +99,17 @@ pub fn diagnose(
     report.left_out = left_out(train);
     report.clocks = found_clocks(&study, train);
     report.not_testable.extend(lone_clocks(&study, train));
+    let is_meant = |entry: &NotTestable| findings.iter().any(|finding| is_of(&study, finding, entry));
+    report.not_testable.extend(too_fast.into_iter().filter(is_meant));
     report.not_testable.extend(too_short(&study, &findings));
     report.not_testable.extend(still(&study));
     report.not_testable.extend(states::untrained(&study, &held_out));
     Ok(Diagnosis { report, findings, held_out })
+}
+
+/// Whether an entry is of the device that was looked at.
+fn is_of(study: &Study, finding: &Finding, entry: &NotTestable) -> bool {
+    finding.has_gap() && entry.device.as_ref() == Some(&study.subjects[finding.subject].name)
 }
 
 /// Signals on which model and traces do not agree.
