@@ -1,5 +1,8 @@
 //! A device under test: candidates in, deviance out.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::candidate::Candidate;
 use super::nuisance::Nuisance;
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals};
@@ -20,6 +23,7 @@ pub struct Bench<'a> {
     pub nuisances: Vec<Nuisance>,
     /// Whoever waits for the answer wants it now.
     pub stop: &'a (dyn Fn() -> bool + Sync),
+    replays: Arc<AtomicUsize>,
 }
 
 /// A set of candidates with their parameters, and what it costs.
@@ -71,15 +75,25 @@ impl Trial {
     }
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
+    /// A device with the nominal parameters that are free with every candidate.
+    pub fn new(subject: &'a Subject, nuisances: Vec<Nuisance>, stop: &'a (dyn Fn() -> bool + Sync)) -> Bench<'a> {
+        Bench { subject, nuisances, stop, replays: Arc::default() }
+    }
+
     /// The same with the device as `subject` weighs it.
     pub fn with<'b>(&'b self, subject: &'b Subject) -> Bench<'b> {
-        Bench { subject, nuisances: self.nuisances.clone(), stop: self.stop }
+        Bench { subject, nuisances: self.nuisances.clone(), stop: self.stop, replays: self.replays.clone() }
     }
 
     /// The device, weighed by what `trial` leaves of it.
     pub fn tolerant(&self, trial: &Trial) -> Option<Subject> {
         Some(self.subject.tolerant(&self.predict(&trial.set, &trial.at)?))
+    }
+
+    /// How often the device was replayed so far.
+    pub fn replays(&self) -> usize {
+        self.replays.load(Ordering::Relaxed)
     }
 
     /// Whether the answer is wanted now.
@@ -112,6 +126,7 @@ impl Bench<'_> {
             specs.push(candidate.spec(own));
             rest = others;
         }
+        self.replays.fetch_add(1, Ordering::Relaxed);
         self.subject.predict(&specs, &self.overrides(set, at)).ok()
     }
 

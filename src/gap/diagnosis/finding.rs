@@ -37,6 +37,8 @@ pub struct Finding {
     pub remainder: Remainder,
     /// Its gap's squares above the floor, in units of the floor.
     pub misfit: f64,
+    /// How often the device was replayed to find it.
+    pub replays: usize,
 }
 
 impl Finding {
@@ -60,7 +62,7 @@ pub(super) fn find(
     study: &Study,
     options: &Options<'_>,
 ) -> Option<Finding> {
-    let bench = Bench { subject, nuisances: nuisances(subject, nominal), stop: options.is_stopped };
+    let bench = Bench::new(subject, nuisances(subject, nominal), options.is_stopped);
     let ladder = climb(&bench, options.is_asked, options.tell)?;
     let bare = subject.score(&bench.predict(&[], &ladder.bare.at)?);
     let mut finding = Finding {
@@ -70,6 +72,7 @@ pub(super) fn find(
         bounds: Vec::new(),
         remainder: Remainder::default(),
         misfit: misfit(&bare),
+        replays: 0,
         ladder,
     };
     let has_gap = is_significant(&finding.ladder);
@@ -79,6 +82,7 @@ pub(super) fn find(
             let is_too_short = finding.ladder.too_few_blocks.is_some();
             finding.conclusion = if is_too_short { Conclusion::TooShort } else { Conclusion::Unknown };
         }
+        finding.replays = bench.replays();
         return Some(finding);
     }
     finding.remainder = remainder(&bench, &finding.ladder)?;
@@ -93,6 +97,7 @@ pub(super) fn find(
         () if finding.remainder.is_significant => Conclusion::Partial,
         () => Conclusion::Explained,
     };
+    finding.replays = bench.replays();
     Some(finding)
 }
 

@@ -170,7 +170,7 @@ fn attempt(
 /// nothing: where the device is driven harder than it can follow, its way hangs on less than anybody can know.
 fn distance(subject: &Subject, pair: &Pair) -> Option<f64> {
     let nominal = subject.predict(&[], &super::Overrides::none()).ok()?;
-    let bench = Bench { subject, nuisances: nuisances(subject, &nominal), stop: &|| false };
+    let bench = Bench::new(subject, nuisances(subject, &nominal), &|| false);
     let output = bench.predict(&pair.cause.set, &pair.cause.at)?;
     let nudged: Vec<f64> = pair.cause.at.iter().map(|value| value * (1.0 + NUDGE)).collect();
     if sum_of_squares(&subject.apart(&output, &bench.predict(&pair.cause.set, &nudged)?)) > 1.0 {
