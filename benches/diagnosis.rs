@@ -96,6 +96,15 @@ fn peak() -> Option<f64> {
     Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? / 1024.0)
 }
 
+/// How long all processors worked for the process so far, s: on a machine that does other things too, what counts.
+fn processor() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name in brackets: user and system time are the 12th and the 13th, in hundredths of a second.
+    let mut fields = stat.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let mut next = || fields.next()?.parse::<f64>().ok();
+    Some((next()? + next()?) / 100.0)
+}
+
 /// Begins a new peak where the system can.
 fn forget() {
     let _ = std::fs::write("/proc/self/clear_refs", "5");
@@ -103,17 +112,18 @@ fn forget() {
 
 fn measure(name: &str, goal: f64, plant: &Plant, recording: &Recording) {
     forget();
-    let start = Instant::now();
+    let (start, used) = (Instant::now(), processor());
     let split = kept_back(std::slice::from_ref(recording));
     let options = Options { is_asked: &|_| true, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
     let answer = diagnose(plant, &split.train, &split.held_out, &options).expect("a diagnosis");
     let evidence = answer.evidence(plant).expect("pictures");
     let page = page(&answer.report, &evidence);
     let seconds = start.elapsed().as_secs_f64();
+    let used = processor().zip(used).map_or("?".to_owned(), |(now, before)| format!("{:.1}", now - before));
     let replays: usize = answer.findings.iter().map(|finding| finding.replays).sum();
     let memory = peak().map_or("?".to_owned(), |peak| format!("{peak:.0}"));
     println!(
-        "{name:28} {seconds:7.1} s of {goal:.0}   {replays:7} replays  {:7.0} a second  {memory:>5} MB   page {} kB",
+        "{name:26} {seconds:6.1} s of {goal:.0}  {used:>6} s of processors  {replays:7} replays  {:7.0} a second  {memory:>5} MB   page {} kB",
         replays as f64 / seconds,
         page.len() / 1000
     );

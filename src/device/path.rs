@@ -20,6 +20,10 @@ use crate::plant::EffectPlace;
 /// The longest stretch of a stage that does not say otherwise, s.
 pub const STRETCH_S: f64 = 1e-3;
 
+/// The longest stretch of a stage that a report passes which moves in steps: each step comes at its instant whatever the
+/// stretch, and what is there and gone again within one is not seen, s.
+pub const STEPS_STRETCH_S: f64 = 5e-3;
+
 /// Where something is and how fast it moves: m and m/s, or rad and rad/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {

@@ -6,7 +6,7 @@
 
 use super::line::{History, Mail};
 use super::table::{BASE, time};
-use crate::device::path::{Moment, STRETCH_S, Stage};
+use crate::device::path::{Moment, STEPS_STRETCH_S, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass, Site};
 use crate::plant::EffectPlace;
 
@@ -45,7 +45,11 @@ impl DeadTime {
             true => Way::History(History::new(true, site.is_whole())),
             false => Way::Mail(Mail::default()),
         };
-        let stretch = if site.is_command() { f64::INFINITY } else { STRETCH_S };
+        let stretch = match &way {
+            _ if site.is_command() => f64::INFINITY,
+            Way::Mail(_) => STEPS_STRETCH_S,
+            Way::History(_) => STRETCH_S,
+        };
         Box::new(DeadTime { time, way, stretch })
     }
 }

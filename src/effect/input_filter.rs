@@ -7,7 +7,7 @@ use super::first_order_lag::{Course, follow};
 use super::line::Mail;
 use super::table::{BASE, time};
 use crate::device::law::SAME_INSTANT_S;
-use crate::device::path::{Moment, Stage};
+use crate::device::path::{Moment, STEPS_STRETCH_S, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass, Site};
 use crate::plant::EffectPlace;
 
@@ -21,9 +21,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     fits: &[Fit::Signals(SignalClass::Any)],
     parameters: &[time("time_constant", 0.02, "time constant of the low-pass, or the time that a BOOL must stand")],
     excited_by: "changes of the signal",
-    build: Build::Stage(|values, site| {
-        Box::new(InputFilter { time_constant: values[0], filter: Filter::new(site), last: 0.0 })
-    }),
+    build: Build::Stage(|values, site| InputFilter::stage(values[0], site)),
     ..BASE
 };
 
@@ -32,6 +30,19 @@ struct InputFilter {
     time_constant: f64,
     filter: Filter,
     last: f64,
+    /// How long a stretch it bears, s.
+    stretch: f64,
+}
+
+impl InputFilter {
+    fn stage(time_constant: f64, site: &Site) -> Box<dyn Stage> {
+        let stretch = match site.is_boolean() {
+            _ if site.is_command() => f64::INFINITY,
+            true => STEPS_STRETCH_S,
+            false => STRETCH_S,
+        };
+        Box::new(InputFilter { time_constant, filter: Filter::new(site), last: 0.0, stretch })
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -94,6 +105,10 @@ impl Steps {
 impl Stage for InputFilter {
     fn boxed(&self) -> Box<dyn Stage> {
         Box::new(self.clone())
+    }
+
+    fn stretch(&self) -> f64 {
+        self.stretch
     }
 
     fn next_change(&self) -> Option<f64> {

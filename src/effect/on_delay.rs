@@ -4,7 +4,7 @@
 
 use super::table::{BASE, time};
 use super::timer::{Late, Timer};
-use crate::device::path::{Moment, Stage};
+use crate::device::path::{Moment, STEPS_STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass};
 use crate::plant::EffectPlace;
 
@@ -30,6 +30,10 @@ struct OnDelay {
 impl Stage for OnDelay {
     fn boxed(&self) -> Box<dyn Stage> {
         Box::new(self.clone())
+    }
+
+    fn stretch(&self) -> f64 {
+        STEPS_STRETCH_S
     }
 
     fn signal(&mut self, value: f64, moment: Moment) -> f64 {

@@ -2,16 +2,18 @@
 
 use std::sync::Arc;
 
+use super::looks::Looks;
 use super::prediction::{Passing, Predicted, PredictedEdge};
 use super::restarts::{Restart, Restarts};
 use super::subject::Run;
+use super::tape::Tape;
 use super::track::Track;
-use super::world::{Script, World};
+use super::world::{Leg, Script, World};
 use crate::device::path::Motion;
 use crate::device::{Device, Role};
 
 /// Two instants nearer than this are one, s.
-const SAME_S: f64 = 1e-9;
+pub(super) const SAME_S: f64 = 1e-9;
 /// How often the instant of an edge is halved: of a cycle of 20 ms, to a nanosecond.
 const HALVINGS: u32 = 24;
 
@@ -26,6 +28,13 @@ pub(super) struct Watch<'a> {
     pub lead: f64,
     /// The beam that it reports, if it is a barrier's.
     pub beam: Option<usize>,
+}
+
+impl Watch<'_> {
+    /// Whether it is of states, whose changes are looked for.
+    pub fn is_edge(&self) -> bool {
+        self.track.is_some_and(|track| track.values.is_empty())
+    }
 }
 
 /// A device with its clock.
@@ -47,15 +56,37 @@ impl Alone {
         Alone { device, world, now: 0.0, reports: vec![0.0; ports] }
     }
 
-    fn advance_to(&mut self, at: f64) {
-        let span = at - self.now;
-        if span > 0.0 {
-            match &mut self.world {
-                Some(world) => world.advance(&mut self.device, self.now, at),
-                None => self.device.advance(span),
+    /// Moves on; whether that was smooth: see [`World::advance`].
+    pub fn advance_to(&mut self, at: f64) -> bool {
+        let is_smooth = match &mut self.world {
+            Some(world) => world.advance(&mut self.device, self.now, at),
+            None => {
+                self.device.advance(at - self.now);
+                true
             }
-            self.now = at;
-        }
+        };
+        self.now = at;
+        is_smooth
+    }
+
+    /// Moves on to `at`, from where it is smooth to where it is smooth.
+    fn advance_in_legs(&mut self, at: f64) -> Vec<Leg> {
+        let legs = match &mut self.world {
+            Some(world) => world.advance_in_legs(&mut self.device, self.now, at),
+            None => {
+                let leg = Leg { device: self.device.clone(), from: self.now, to: at, until: at };
+                self.device.advance(at - self.now);
+                vec![leg]
+            }
+        };
+        self.now = at;
+        legs
+    }
+
+    /// Takes up a command of the run.
+    pub fn obey(&mut self, run: &Run, command: usize) {
+        let (port, stamped) = run.commands[command];
+        self.device.command(port, stamped.value);
     }
 
     /// Lets the device come to where its first commands of each port lead, and sets the clock back.
@@ -87,7 +118,7 @@ impl Alone {
         Some(Passing { part, speed })
     }
 
-    fn look(&mut self) -> &[f64] {
+    pub fn look(&mut self) -> &[f64] {
         self.device.report(&mut self.reports);
         &self.reports
     }
@@ -130,39 +161,23 @@ enum Next {
     Sample,
 }
 
-/// Signals that are looked at at the same instants.
-struct Stream<'a> {
-    track: &'a Track,
-    lead: f64,
-    tick: f64,
-    /// The next instant of the grid.
-    next: usize,
-    /// Their places among the watches.
-    signals: Vec<usize>,
-}
-
-impl Stream<'_> {
-    fn at(&self) -> Option<f64> {
-        let at = *self.track.grid.instants.get(self.next)?;
-        let at = if self.tick > 0.0 { (at / self.tick).round() * self.tick } else { at };
-        Some((at + self.lead).max(0.0))
-    }
-}
-
 /// Lets a device live through a run.
 pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Predicted> {
-    let mut streams = streams(run, watches);
+    let mut looks = Looks::new(run, watches);
     if run.settles {
         alone.settle(run);
     }
     let mut views: Vec<View> = watches.iter().map(|watch| View::new(watch, &alone)).collect();
     let has_edges = views.iter().any(|view| view.is_edge);
+    // Where nothing is looked for between two steps, nothing needs to be kept.
+    let keeps = has_edges || alone.world.is_some();
+    let mut tape = keeps.then(|| Tape::new(&alone, has_edges));
     let (mut command, mut taken_up_again) = (0, 0);
     let restarts = run.restarts.as_deref();
     loop {
         let due = run.commands.get(command).map(|(_, stamped)| taken_up(stamped.at, run.command_tick));
-        let looked = streams.iter().filter_map(Stream::at).min_by(f64::total_cmp);
         let restart = restarts.and_then(|restarts| restarts.each.get(taken_up_again)).map(|restart| restart.at);
+        let looked = looks.next(due.into_iter().chain(restart).min_by(f64::total_cmp));
         let is_next = |restart: f64, looked: f64| restart <= looked && due.is_none_or(|due| restart <= due);
         let (at, next) = match (due, looked) {
             (_, None) => break,
@@ -172,15 +187,34 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
             (Some(due), Some(looked)) if is_first(due, looked, run.commands_first) => (due, Next::Command(command)),
             (_, Some(looked)) => (looked, Next::Sample),
         };
-        let before = (has_edges && at > alone.now).then(|| alone.clone());
-        alone.advance_to(at);
-        if let Some(before) = before {
-            note_edges(&mut views, &before, &mut alone);
+        if at > alone.now {
+            let before = looks.signs(&alone.reports);
+            let is_smooth = alone.advance_to(at);
+            if has_edges {
+                alone.look();
+            }
+            let is_still = is_smooth && views.iter().all(|view| view.is_as_in(&alone));
+            if let Some(tape) = &mut tape {
+                if is_still && (!looks.leaps() || before == looks.signs(&alone.reports)) {
+                    tape.advanced(at, &alone);
+                } else {
+                    alone = tape.rewound(run);
+                    if looks.leaps() {
+                        looks.go_slowly_until(at);
+                        continue;
+                    }
+                    let legs = alone.advance_in_legs(at);
+                    note_edges(&mut views, &legs, &mut alone);
+                    tape.begin(&alone);
+                }
+            }
         }
         match next {
             Next::Command(index) => {
-                let (port, stamped) = run.commands[index];
-                alone.device.command(port, stamped.value);
+                alone.obey(run, index);
+                if let Some(tape) = &mut tape {
+                    tape.obeyed(index);
+                }
                 command += 1;
                 if has_edges {
                     note_at_once(&mut views, &mut alone);
@@ -192,16 +226,18 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
                 if has_edges {
                     note_at_once(&mut views, &mut alone);
                 }
+                if let Some(tape) = &mut tape {
+                    tape.begin(&alone);
+                }
             }
             Next::Sample => {
                 alone.look();
-                let due = |stream: &&mut Stream<'_>| stream.at().is_some_and(|own| own <= at + SAME_S);
-                for stream in streams.iter_mut().filter(due) {
-                    for signal in &stream.signals {
-                        views[*signal].sample(stream.next, alone.reports[watches[*signal].port]);
-                    }
-                    stream.next += 1;
+                if let Some(tape) = &mut tape {
+                    tape.looked();
                 }
+                looks.taken(at, |signal, index| {
+                    views[signal].sample(index, alone.reports[watches[signal].port]);
+                });
             }
         }
     }
@@ -218,29 +254,9 @@ fn is_first(due: f64, looked: f64, commands_first: bool) -> bool {
     if commands_first { due <= looked + SAME_S } else { due < looked - SAME_S }
 }
 
-fn streams<'a>(run: &Run, watches: &[Watch<'a>]) -> Vec<Stream<'a>> {
-    let mut streams: Vec<Stream<'a>> = Vec::new();
-    for (signal, watch) in watches.iter().enumerate() {
-        let Some(track) = watch.track else { continue };
-        let same = |stream: &&mut Stream<'a>| Arc::ptr_eq(&stream.track.grid, &track.grid) && stream.lead == watch.lead;
-        match streams.iter_mut().find(same) {
-            Some(stream) => {
-                stream.signals.push(signal);
-                stream.next = stream.next.min(track.first);
-            }
-            None => {
-                let (lead, tick) = (watch.lead, run.sample_tick);
-                streams.push(Stream { track, lead, tick, next: track.first, signals: vec![signal] });
-            }
-        }
-    }
-    streams
-}
-
 /// What is seen of one signal so far.
 struct View {
     port: usize,
-    first: usize,
     is_edge: bool,
     /// What it is now, and since when.
     state: f64,
@@ -254,7 +270,7 @@ struct View {
 
 impl View {
     fn new(watch: &Watch<'_>, alone: &Alone) -> View {
-        let is_edge = watch.track.is_some_and(|track| track.values.is_empty());
+        let is_edge = watch.is_edge();
         let predicted = match watch.track {
             None => Predicted::Nothing,
             Some(_) if is_edge => Predicted::Edges { initial: 0.0, edges: Vec::new() },
@@ -262,18 +278,12 @@ impl View {
         };
         let mut alone = alone.clone();
         let state = alone.look()[watch.port];
-        let first = watch.track.map_or(0, |track| track.first);
-        View {
-            port: watch.port,
-            first,
-            is_edge,
-            state,
-            since: 0.0,
-            beam: watch.beam,
-            passing: None,
-            shown: None,
-            predicted,
-        }
+        View { port: watch.port, is_edge, state, since: 0.0, beam: watch.beam, passing: None, shown: None, predicted }
+    }
+
+    /// Whether a look at the device finds the signal as it was.
+    fn is_as_in(&self, alone: &Alone) -> bool {
+        !self.is_edge || alone.reports[self.port] == self.state
     }
 
     fn becomes(&mut self, state: f64, at: f64, passing: Option<Passing>) {
@@ -282,9 +292,6 @@ impl View {
 
     /// It is looked at, at the grid's instant `index`.
     fn sample(&mut self, index: usize, value: f64) {
-        if index < self.first {
-            return;
-        }
         match &mut self.predicted {
             Predicted::Nothing => {}
             Predicted::Level(values) => values.push(value),
@@ -302,19 +309,38 @@ impl View {
     }
 }
 
-/// Finds when, between `before` and now, states became what they are.
-fn note_edges(views: &mut [View], before: &Alone, alone: &mut Alone) {
+/// Finds when, in the legs that end now, states became what they are.
+fn note_edges(views: &mut [View], legs: &[Leg], alone: &mut Alone) {
     alone.look();
-    for view in views.iter_mut().filter(|view| view.is_edge && alone.reports[view.port] != view.state) {
+    for view in views.iter_mut().filter(|view| !view.is_as_in(alone)) {
         let state = alone.reports[view.port];
-        let (mut low, mut high) = (before.clone(), alone.now);
-        for _ in 0..HALVINGS {
-            let mut middle = low.clone();
-            middle.advance_to(0.5 * (low.now + high));
-            if middle.look()[view.port] == state { high = middle.now } else { low = middle }
-        }
-        view.becomes(state, high, alone.passing(view.beam));
+        let mut reports = vec![0.0; alone.reports.len()];
+        let mut is_there = |device: &mut Box<dyn Device>| {
+            device.report(&mut reports);
+            reports[view.port] == state
+        };
+        let at = legs.iter().zip(legs.iter().skip(1).map(Some).chain([None]));
+        let at = at.filter_map(|(leg, next)| becomes_in(leg, next, &mut is_there)).next();
+        view.becomes(state, at.unwrap_or(alone.now), alone.passing(view.beam));
     }
+}
+
+/// When in a leg, or at its end, something comes to be so of its device.
+fn becomes_in(leg: &Leg, next: Option<&Leg>, is_so: &mut dyn FnMut(&mut Box<dyn Device>) -> bool) -> Option<f64> {
+    let mut end = leg.device.clone();
+    end.advance(leg.to - leg.from);
+    if !is_so(&mut end) {
+        let is_after = next.is_none_or(|next| is_so(&mut next.device.clone()));
+        return is_after.then_some(leg.until);
+    }
+    let (mut device, mut low, mut high) = (leg.device.clone(), leg.from, leg.to);
+    for _ in 0..HALVINGS {
+        let at = 0.5 * (low + high);
+        let mut middle = device.clone();
+        middle.advance(at - low);
+        if is_so(&mut middle) { high = at } else { (device, low) = (middle, at) }
+    }
+    Some(high)
 }
 
 /// Takes up what follows a command at once.

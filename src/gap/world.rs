@@ -53,6 +53,17 @@ pub struct Cut {
     pub taken: Option<f64>,
 }
 
+/// A span in which nothing about a device jumps, and the instant behind it at which something may.
+pub(super) struct Leg {
+    /// The device as it was at `from`.
+    pub device: Box<dyn Device>,
+    pub from: f64,
+    /// Until here its surroundings stayed as they were at `from`.
+    pub to: f64,
+    /// Here they may be others: `to`, or next to it.
+    pub until: f64,
+}
+
 /// How far behind a beam a part is forgotten, m.
 const GONE_M: f64 = 0.05;
 /// How often the instant of a crossing is halved.
@@ -103,25 +114,44 @@ impl World {
         [cut, told, taken].into_iter().flatten().min_by(f64::total_cmp)
     }
 
-    /// Moves a device and the parts on it to `until`, from `now`; it sees every change of a beam at its instant.
-    pub fn advance(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) {
+    /// Moves a device and the parts on it to `until`, from `now`. Whether no part came to a beam or left it on the way: if one
+    /// did, device and world are spoilt, and have to be moved from their state before once more, in legs.
+    pub fn advance(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) -> bool {
         while now < until {
-            let stop = self.next().filter(|at| *at > now).map_or(until, |at| at.min(until));
-            now = self.stretch(device, now, stop);
+            let stop = self.stop(now, until);
+            self.way += moved(device.as_mut(), stop - now);
+            if !self.active.is_empty() && self.cut() != self.beams {
+                return false;
+            }
+            now = stop;
             self.read(device.as_mut(), now);
         }
+        true
     }
 
-    /// Moves on to `until`, or to the first crossing of a beam; returns the instant.
-    fn stretch(&mut self, device: &mut Box<dyn Device>, now: f64, until: f64) -> f64 {
-        if self.active.is_empty() {
-            self.way += moved(device.as_mut(), until - now);
-            return until;
+    /// Moves a device and the parts on it to `until`, from `now`; it sees every change of a beam at its instant.
+    pub fn advance_in_legs(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) -> Vec<Leg> {
+        let mut legs = Vec::new();
+        while now < until {
+            let leg = self.leg(device, now, self.stop(now, until));
+            now = leg.until;
+            legs.push(leg);
+            self.read(device.as_mut(), now);
         }
+        legs
+    }
+
+    /// How far a device may be moved from `now` until the script goes on.
+    fn stop(&self, now: f64, until: f64) -> f64 {
+        self.next().filter(|at| *at > now).map_or(until, |at| at.min(until))
+    }
+
+    /// Moves on to `until`, or to the first crossing of a beam.
+    fn leg(&mut self, device: &mut Box<dyn Device>, now: f64, until: f64) -> Leg {
         let (start, way) = (device.clone(), self.way);
         self.way = way + moved(device.as_mut(), until - now);
-        if self.cut() == self.beams {
-            return until;
+        if self.active.is_empty() || self.cut() == self.beams {
+            return Leg { device: start, from: now, to: until, until };
         }
         let (mut low, mut high) = (0.0, until - now);
         for _ in 0..HALVINGS {
@@ -130,10 +160,10 @@ impl World {
             self.way = way + moved(tried.as_mut(), middle);
             if self.cut() == self.beams { low = middle } else { high = middle }
         }
-        *device = start;
+        *device = start.clone();
         self.way = way + moved(device.as_mut(), high);
         self.crossed(device.as_mut());
-        now + high
+        Leg { device: start, from: now, to: now + low, until: now + high }
     }
 
     /// Reads on in the script up to `now`, and shows the device what has changed.

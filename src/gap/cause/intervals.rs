@@ -1,5 +1,7 @@
 //! Where each parameter of the answer lies.
 
+use rayon::prelude::*;
+
 use super::bench::{Bench, Trial};
 use crate::gap::fit::{Interval, Side, least_squares, profile};
 
@@ -28,7 +30,7 @@ pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
         let blur = if *is_time { 1.96 * 0.5 * tick } else { 0.0 };
         bounds(value, interval, blur)
     };
-    times.iter().enumerate().map(of).collect()
+    times.par_iter().enumerate().map(of).collect()
 }
 
 fn bounds(value: f64, interval: Interval, blur: f64) -> Bounds {

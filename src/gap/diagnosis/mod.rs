@@ -15,6 +15,8 @@ mod words;
 pub use finding::{Conclusion, Finding};
 pub use held_out::{Split, kept_back};
 
+use rayon::prelude::*;
+
 use super::cause::{BLOCK_S, Tell};
 use super::page::{Added, Evidence, gather};
 use super::report::{FoundClock, NotTestable, Report, SignalNames};
@@ -80,7 +82,10 @@ pub fn diagnose(
     let study = Study::new(plant, train)?;
     let meant = study.subjects.iter().zip(&study.nominal).enumerate();
     let meant = meant.filter(|(_, (subject, _))| (options.is_meant)(&subject.id.instance(plant).name));
+    let meant: Vec<_> = meant.collect();
     let findings: Vec<Finding> = meant
+        .into_par_iter()
+        .with_max_len(1)
         .filter_map(|(place, (subject, nominal))| finding::find(place, subject, nominal, &study, options))
         .collect();
     let mut held_out = Study::beside(plant, held_out, &study)?;

@@ -44,7 +44,8 @@ impl Interval {
 /// what correlated residuals exaggerate).
 pub fn profile(residuals: &Residuals<'_>, fitted: &Fitted, ranges: &[Range], parameter: usize, rise: f64) -> Interval {
     let walk = Walk { residuals, fitted, ranges, parameter, rise };
-    Interval { from: walk.end(-1.0), to: walk.end(1.0) }
+    let (from, to) = rayon::join(|| walk.end(-1.0), || walk.end(1.0));
+    Interval { from, to }
 }
 
 struct Walk<'a> {

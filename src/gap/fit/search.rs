@@ -1,5 +1,7 @@
 //! The best of several starts.
 
+use rayon::prelude::*;
+
 use super::{Fitted, Range, Residuals, least_squares, simplex, sum_of_squares};
 
 /// How long is searched.
@@ -15,16 +17,15 @@ pub struct Effort {
 /// squares stick where a model has kinks or steps. `None` where the model cannot be computed at any start.
 pub fn search(residuals: &Residuals<'_>, starts: &[Vec<f64>], ranges: &[Range], effort: Effort) -> Option<Fitted> {
     let mut scored: Vec<(f64, &Vec<f64>)> = starts
-        .iter()
+        .par_iter()
         .filter_map(|start| Some((sum_of_squares(&residuals(start)?), start)))
         .filter(|(cost, _)| cost.is_finite())
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut best: Option<Fitted> = None;
-    for (_, start) in scored.iter().take(effort.starts) {
-        let found = downhill(residuals, start, ranges, effort.budget);
-        best = [best, found].into_iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost));
-    }
+    scored.truncate(effort.starts);
+    let found = scored.par_iter().filter_map(|(_, start)| downhill(residuals, start, ranges, effort.budget));
+    let found: Vec<Fitted> = found.collect();
+    let best = found.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
     best.map(|found| Fitted { evaluations: found.evaluations + starts.len() as u32, ..found })
 }
 

@@ -1,0 +1,197 @@
+//! When a device alone is looked at.
+//!
+//! States whose changes are known to the millisecond are not looked at a thousand times a second: nothing is seen at an instant
+//! at which nothing has changed. One look then stands for all instants since the one before; where it finds anything changed,
+//! the device is brought back and looked at one instant after the other.
+
+use std::sync::Arc;
+
+use super::alone::{SAME_S, Watch};
+use super::subject::Run;
+use super::track::Track;
+
+/// Over how long one look may stand for others, s.
+const LEAP_S: f64 = 0.02;
+
+/// All looks of a run.
+pub(super) struct Looks<'a> {
+    streams: Vec<Stream<'a>>,
+    /// The ports of levels: one that passes 0 may have brought a state there and back.
+    levels: Vec<usize>,
+    /// Until when every instant is looked at, s.
+    slowly: f64,
+    /// How many instants one look may stand for now.
+    stride: usize,
+    /// Whether the look that is next stands for others.
+    leaps: bool,
+}
+
+/// Signals that are looked at at the same instants.
+struct Stream<'a> {
+    track: &'a Track,
+    lead: f64,
+    tick: f64,
+    /// The next instant of the grid.
+    next: usize,
+    /// How many instants one look may ever stand for.
+    longest: usize,
+    /// Their places among the watches, and the first instant of each.
+    signals: Vec<(usize, usize)>,
+}
+
+impl Stream<'_> {
+    fn instant(&self, index: usize) -> Option<f64> {
+        let at = *self.track.grid.instants.get(index)?;
+        let at = if self.tick > 0.0 { (at / self.tick).round() * self.tick } else { at };
+        Some((at + self.lead).max(0.0))
+    }
+
+    /// The last of the next `stride` instants that does not lie behind `bound`; the next one at least.
+    fn last(&self, stride: usize, bound: f64) -> usize {
+        let (mut last, most) = (self.next, self.next + stride.min(self.longest));
+        while last + 1 < most && self.instant(last + 1).is_some_and(|at| at < bound) {
+            last += 1;
+        }
+        last
+    }
+}
+
+impl<'a> Looks<'a> {
+    pub fn new(run: &Run, watches: &[Watch<'a>]) -> Looks<'a> {
+        let mut streams: Vec<Stream<'a>> = Vec::new();
+        for (signal, watch) in watches.iter().enumerate() {
+            let Some(track) = watch.track else { continue };
+            let same =
+                |stream: &&mut Stream<'a>| Arc::ptr_eq(&stream.track.grid, &track.grid) && stream.lead == watch.lead;
+            let of_edges = (LEAP_S / track.grid.cycle.max(1e-6)).round().max(1.0) as usize;
+            let longest = if watch.is_edge() { of_edges } else { 1 };
+            match streams.iter_mut().find(same) {
+                Some(stream) => {
+                    stream.signals.push((signal, track.first));
+                    stream.next = stream.next.min(track.first);
+                    stream.longest = stream.longest.min(longest);
+                }
+                None => {
+                    let (lead, tick, signals) = (watch.lead, run.sample_tick, vec![(signal, track.first)]);
+                    streams.push(Stream { track, lead, tick, next: track.first, longest, signals });
+                }
+            }
+        }
+        let levels = watches.iter().filter(|watch| watch.track.is_some() && !watch.is_edge());
+        let levels = levels.map(|watch| watch.port).collect();
+        Looks { streams, levels, slowly: 0.0, stride: 1, leaps: false }
+    }
+
+    /// When the device is looked at next, `due` being the next command's instant; `None` where there is nothing left to see.
+    pub fn next(&mut self, due: Option<f64>) -> Option<f64> {
+        let own = |stream: &Stream<'_>| stream.instant(stream.next);
+        let next = self.streams.iter().filter_map(own).min_by(f64::total_cmp)?;
+        self.leaps = false;
+        if self.stride == 1 || next < self.slowly {
+            return Some(next);
+        }
+        let single = self.streams.iter().filter(|stream| stream.longest == 1).filter_map(own).map(|at| at + SAME_S);
+        let bound = single.chain(due.map(|due| due - SAME_S)).fold(f64::INFINITY, f64::min);
+        let last = |stream: &Stream<'_>| stream.instant(stream.last(self.stride, bound));
+        let leapt = self.streams.iter().filter_map(last).min_by(f64::total_cmp)?;
+        self.leaps = leapt > next + SAME_S;
+        Some(leapt)
+    }
+
+    /// Whether the look that is next stands for others.
+    pub fn leaps(&self) -> bool {
+        self.leaps
+    }
+
+    /// Which way each level goes from 0.
+    pub fn signs(&self, reports: &[f64]) -> u64 {
+        let bit = |(place, port): (usize, &usize)| u64::from(reports[*port] < 0.0) << (place % 64);
+        self.levels.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit)
+    }
+
+    /// Something has changed before `at`: until then every instant is looked at.
+    pub fn go_slowly_until(&mut self, at: f64) {
+        self.slowly = at + SAME_S;
+    }
+
+    /// The device was looked at: gives every signal that is due its index, the first of those that the look stands for.
+    pub fn taken(&mut self, at: f64, mut see: impl FnMut(usize, usize)) {
+        for stream in &mut self.streams {
+            let first = stream.next;
+            while stream.instant(stream.next).is_some_and(|own| own <= at + SAME_S) {
+                stream.next += 1;
+                if stream.longest == 1 {
+                    break;
+                }
+            }
+            for (signal, own) in stream.signals.iter().filter(|(_, own)| *own < stream.next) {
+                if stream.next > first {
+                    see(*signal, first.max(*own));
+                }
+            }
+        }
+        self.stride = if at < self.slowly { 1 } else { (2 * self.stride).min(64) };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+    use std::sync::Arc;
+
+    use crate::device::KINDS;
+    use crate::gap::{Overrides, Predicted, Recording, Study, Subject};
+    use crate::plant::{self, embedded::Embedded};
+    use crate::signal_map::Kind;
+    use crate::trace::Reader;
+
+    const HEADER: &str = r#"{"trace":"kinetwin/1","source":"simulation","step_ns":1000000}"#;
+
+    /// The rig's belt, told a new speed each second, ahead and back; it reports each 20 ms, its states to the millisecond.
+    fn belt() -> Subject {
+        let plant = plant::load(&Embedded, "models/rig", KINDS).expect("the rig");
+        let mut text = format!("{HEADER}\n");
+        for (second, speed) in [0.5, -0.5, 0.3, 0.002, -0.7, 0.0, 0.9, -0.9].into_iter().enumerate() {
+            let told = format!(
+                r#"{{"name":"Belt.velocityTarget","value":{}}},{{"name":"Belt.motorDirection","value":{}}}"#,
+                f64::abs(speed),
+                if speed < 0.0 { -1 } else { 1 }
+            );
+            text += &format!("{{\"t\":{}.0005,\"from\":\"automation\",\"SendValue\":[{told}]}}\n", second);
+            for look in 1..=50 {
+                let at = second as f64 + 0.02 * f64::from(look);
+                let reports = [("velocityActual", "0.0"), ("driveRunning", "false"), ("directionalActual", "0")];
+                let reports = reports.map(|(name, value)| format!("{{\"name\":\"Belt.{name}\",\"value\":{value}}}"));
+                text += &format!("{{\"t\":{at:.3},\"from\":\"plant\",\"SendValue\":[{}]}}\n", reports.join(","));
+            }
+        }
+        let reader = Reader::new("belt", Cursor::new(text.into_bytes())).expect("a trace");
+        let recording = Recording::read(&plant, "belt", reader, &[]).expect("a recording");
+        Study::new(&plant, &[recording]).expect("a study").subject("Belt").expect("the belt").clone()
+    }
+
+    /// A belt that reverses stands still for four milliseconds.
+    #[test]
+    fn a_look_that_stands_for_others_misses_nothing() {
+        let leaping = belt();
+        let mut slow = leaping.clone();
+        let run = &mut slow.runs[0];
+        let edges = slow.signals.iter().position(|info| info.kind == Kind::Edge).expect("a state");
+        let grid = run.tracks.iter().flatten().find(|track| track.values.is_empty()).expect("a state").grid.clone();
+        for track in run.tracks.iter_mut().flatten() {
+            track.grid = Arc::clone(&grid);
+        }
+        let [fast, every] = [&leaping, &slow].map(|of| of.predict(&[], &Overrides::none()).expect("a belt").runs);
+        let mut found = 0;
+        for (fast, every) in fast[0].iter().zip(&every[0]).skip(edges) {
+            let (Predicted::Edges { edges: fast, .. }, Predicted::Edges { edges: every, .. }) = (fast, every) else {
+                continue;
+            };
+            let each = |edges: &[crate::gap::PredictedEdge]| edges.iter().map(|e| (e.index, e.to)).collect::<Vec<_>>();
+            assert_eq!(each(fast), each(every));
+            assert!(fast.iter().zip(every).all(|(a, b)| (a.at - b.at).abs() < 1e-8), "{fast:?} {every:?}");
+            found += fast.len();
+        }
+        assert!(found > 15, "{found}");
+    }
+}
