@@ -35,6 +35,7 @@ mod grid;
 mod locate;
 mod looks;
 mod mask;
+mod neighbours;
 mod overrides;
 pub mod page;
 mod parts;

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::clocks::{self, ClockOffset};
 use super::grid::Grid;
+use super::neighbours;
 use super::overrides::Overrides;
 use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
@@ -84,6 +85,7 @@ impl Study {
         }
         let sizes = surroundings::part_sizes(plant);
         subjects.par_iter_mut().try_for_each(|subject| subject.surround(&sizes))?;
+        (0..recordings.len()).for_each(|run| neighbours::tell(plant, &mut subjects, run));
         let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
         for run in 0..recordings.len() {
             find_edge_sigma(&mut subjects, &nominal, run);

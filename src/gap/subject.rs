@@ -19,7 +19,7 @@ use super::tolerance::rests;
 use super::track::Track;
 use super::world::Script;
 use crate::device::Device;
-use crate::effect::{self, EffectError};
+use crate::effect::{self, CARRIES_PARTS, EffectError, SHARES_A_SUPPLY};
 use crate::plant::{EffectSpec, ParameterValue, Parameters, Plant};
 use crate::prototype::kind::{KindDescriptor, PortType};
 use crate::signal_map::{Direction, Kind, RegisterId};
@@ -66,6 +66,8 @@ pub struct Run {
     pub(super) rests: Vec<Vec<bool>>,
     /// What surrounds the device: parts that pass, as far as they were recorded.
     pub script: Arc<Script>,
+    /// The same with what its neighbours did.
+    pub(super) among_neighbours: Arc<Script>,
     /// Whether the recording starts under way, so that the device is given time to settle at its first commands.
     pub(super) settles: bool,
     /// Whether it goes on with a recording whose commands are lost, so that nobody knows where the device is.
@@ -141,6 +143,7 @@ impl Subject {
                 edge_sigmas: vec![EDGE_SIGMA_S; signals.len()],
                 rests: vec![Vec::new(); signals.len()],
                 script: Arc::default(),
+                among_neighbours: Arc::default(),
                 commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
                 command_tick: 0.0,
@@ -168,6 +171,8 @@ impl Subject {
     /// Effects or parameters that do not fit the device, or that are out of their ranges.
     pub fn predict(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Prediction, EffectError> {
         let device = self.device(effects, overrides)?;
+        let asks = |spec: &EffectSpec| [SHARES_A_SUPPLY, CARRIES_PARTS].contains(&spec.kind.as_str());
+        let asks_neighbours = self.effects.iter().chain(effects).any(asks);
         let run = |run: &Run| -> Result<Vec<Predicted>, EffectError> {
             let set_up = match run.settings.is_empty() {
                 true => None,
@@ -176,7 +181,8 @@ impl Subject {
             let device = set_up.as_ref().unwrap_or(&device);
             let watch = |(info, track)| self.watch(info, track, run);
             let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
-            let alone = Alone::new(device.boxed(), self.kind.ports.len(), &run.script);
+            let script = if asks_neighbours { &run.among_neighbours } else { &run.script };
+            let alone = Alone::new(device.boxed(), self.kind.ports.len(), script);
             let mut predicted = alone::run(alone, run, &watches);
             self.count_on(run, &mut predicted);
             Ok(predicted)

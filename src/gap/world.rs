@@ -32,6 +32,10 @@ pub enum Surrounding {
     BarrierA,
     BarrierB,
     Sealed,
+    /// So many actuators of others on its supply move.
+    Others(u32),
+    /// So many of its grippers hold something.
+    Held(u32),
 }
 
 /// A part passes a beam.
@@ -179,6 +183,8 @@ impl World {
                 Surrounding::BarrierA => self.told.barrier_a = told.is_on,
                 Surrounding::BarrierB => self.told.barrier_b = told.is_on,
                 Surrounding::Sealed => self.told.sealed = told.is_on,
+                Surrounding::Others(count) => device.share(count),
+                Surrounding::Held(count) => self.told.parts = count,
             }
             self.next_told += 1;
             news = true;
@@ -227,8 +233,8 @@ impl World {
         parts.sort_unstable();
         parts.dedup();
         let [barrier_a, barrier_b] = beams;
-        let sealed = self.told.sealed;
-        device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts: parts.len() as u32, queued: 0 });
+        let Surroundings { sealed, parts: held, .. } = self.told;
+        device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts: held + parts.len() as u32, queued: 0 });
     }
 }
 
