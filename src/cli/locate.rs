@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::{Answer, Failure, words};
 use crate::gap::{
-    Beat, ClockOffset, Located, LocatedSignal, Location, Recording, Span, Study, locate, read_mask, segments,
+    Beat, ClockOffset, Located, LocatedSignal, Location, Recording, Span, Study, Task, locate, read_mask, segments,
 };
 use crate::plant::Plant;
 use crate::replay::{self, Survey, Tolerances};
@@ -83,6 +83,8 @@ struct Heard<'a> {
     late_s: f64,
     /// The machine's own tick, 0 where none was found.
     tick_s: f64,
+    /// What its task does to all devices alike.
+    task: Task,
     /// Signals of the model that it does not hold.
     absent: &'a [String],
     /// Signals that were left out, and why.
@@ -154,6 +156,7 @@ fn heard<'a>(at: usize, recording: &'a Recording, study: &'a Study) -> Heard<'a>
         cycle_s: Some(grid.cycle).filter(|_| grid.is_rebuilt),
         late_s: grid.lateness,
         tick_s: study.ticks[at],
+        task: study.tasks[at],
         absent: &recording.absent,
         ignored: &recording.ignored,
         clocks: &study.clocks[at],
@@ -203,6 +206,16 @@ fn heard_text(recording: &Heard<'_>) -> String {
     }
     for (notice, count) in recording.notices {
         note(format!("{notice} ({count} times)"));
+    }
+    let Task { every_s, phase_s, age_s, filter_s } = recording.task;
+    if phase_s > 0.0 || age_s > 0.0 || filter_s > 0.0 {
+        note(format!(
+            "common to all devices: a task every {:.1} ms from {:.2} ms on, reports {:.2} ms old, flags filtered {:.1} ms",
+            1e3 * every_s,
+            1e3 * phase_s,
+            1e3 * age_s,
+            1e3 * filter_s
+        ));
     }
     for clock in recording.clocks {
         note(format!(

@@ -126,7 +126,7 @@ impl Alone {
 
 /// How far the belt of a device has gone at each of `instants`, which ascend, in a run without parts, m.
 pub(super) fn travel(mut device: Box<dyn Device>, run: &Run, instants: &[f64]) -> Vec<f64> {
-    let mut commands = run.commands.iter().map(|(port, told)| (*port, taken_up(told.at, run.command_tick), told.value));
+    let mut commands = run.commands.iter().map(|(port, told)| (*port, run.task.taken_up(told.at), told.value));
     let mut next = commands.next();
     let (mut now, mut way) = (0.0, 0.0);
     let mut go = |device: &mut Box<dyn Device>, to: f64| {
@@ -175,7 +175,7 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
     let (mut command, mut taken_up_again) = (0, 0);
     let restarts = run.restarts.as_deref();
     loop {
-        let due = run.commands.get(command).map(|(_, stamped)| taken_up(stamped.at, run.command_tick));
+        let due = run.commands.get(command).map(|(_, stamped)| run.task.taken_up(stamped.at));
         let restart = restarts.and_then(|restarts| restarts.each.get(taken_up_again)).map(|restart| restart.at);
         let looked = looks.next(due.into_iter().chain(restart).min_by(f64::total_cmp));
         let is_next = |restart: f64, looked: f64| restart <= looked && due.is_none_or(|due| restart <= due);
@@ -242,11 +242,6 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
         }
     }
     views.into_iter().map(|view| view.predicted).collect()
-}
-
-/// When a command given at `at` acts: at the machine's next tick.
-fn taken_up(at: f64, tick: f64) -> f64 {
-    if tick > 0.0 { (at / tick - 1e-6).ceil() * tick } else { at }
 }
 
 /// Whether a command that is due comes before a look: at equal times a machine has looked already.

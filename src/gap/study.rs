@@ -13,6 +13,7 @@ use super::recording::{Beat, Recording, TaskId};
 use super::score::Score;
 use super::subject::{Subject, Timing};
 use super::surroundings;
+use super::task::{self, Task};
 use super::tick::{self, Vote};
 use crate::effect::EffectError;
 use crate::plant::Plant;
@@ -38,6 +39,8 @@ pub struct Study {
     pub ticks: Vec<f64>,
     /// When the machine looked at its state, by recording.
     pub grids: Vec<Grids>,
+    /// What the machine's task does to all devices alike, by recording.
+    pub tasks: Vec<Task>,
     /// How far the other clocks of each recording are off that of its commands.
     pub clocks: Vec<Vec<ClockOffset>>,
 }
@@ -79,7 +82,10 @@ impl Study {
                     subjects.iter_mut().for_each(|subject| subject.keep_tick(run));
                     *tick
                 }
-                _ => find_tick(&mut subjects, run, &grids[run].main)?,
+                _ => {
+                    let tick = find_tick(&mut subjects, run, &grids[run].main)?;
+                    find_task(&mut subjects, run, &grids[run].main)?.unwrap_or(tick)
+                }
             };
             ticks.push(tick);
         }
@@ -90,7 +96,9 @@ impl Study {
         for run in 0..recordings.len() {
             find_edge_sigma(&mut subjects, &nominal, run);
         }
-        Ok(Study { subjects, nominal, ticks, grids, clocks: vec![Vec::new(); recordings.len()] })
+        let tasks =
+            (0..recordings.len()).map(|run| subjects.first().map_or(Task::default(), |of| of.runs[run].task)).collect();
+        Ok(Study { subjects, nominal, ticks, tasks, grids, clocks: vec![Vec::new(); recordings.len()] })
     }
 
     /// The same for recordings that `trained` has not seen. The devices that are taken up again there are replayed in one go
@@ -138,6 +146,28 @@ fn find_tick(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
         subject.set_tick(run, tick, command_tick);
     }
     Ok(tick)
+}
+
+/// What the machine's task does to all devices of a run alike, which is set in them; its tick, s, where there is such.
+fn find_task(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Result<Option<f64>, EffectError> {
+    let main = &grids[Beat::Fast as usize];
+    subjects.par_iter_mut().try_for_each(|subject| calibrate(subject).map(drop))?;
+    let found = if main.is_rebuilt { task::find(subjects, run, main.cycle)? } else { None };
+    if let Some(task) = found {
+        subjects.iter_mut().for_each(|subject| {
+            subject.set_tick(run, 0.0, 0.0);
+            subject.set_task(run, task);
+        });
+    }
+    let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
+    let filter_s = task::find_filter(subjects, &nominal, run);
+    if filter_s > 0.0 {
+        subjects.iter_mut().for_each(|subject| {
+            let task = subject.runs[run].task;
+            subject.set_task(run, Task { filter_s, ..task });
+        });
+    }
+    Ok(found.map(|task| task.every_s))
 }
 
 /// The nominal prediction of a subject, and its floors with it.

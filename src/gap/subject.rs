@@ -15,6 +15,7 @@ use super::restarts::Restarts;
 use super::score::{Score, SignalScore};
 use super::study::Grids;
 use super::surroundings;
+use super::task::Task;
 use super::tolerance::rests;
 use super::track::Track;
 use super::world::Script;
@@ -76,8 +77,8 @@ pub struct Run {
     pub(super) commands_first: bool,
     /// The tick at which the machine looked at its state, s; 0: none.
     pub(super) sample_tick: f64,
-    /// The tick at which it took commands up, s; 0: at once.
-    pub(super) command_tick: f64,
+    /// The task that took commands up, and how late it reports.
+    pub(super) task: Task,
     /// Parameters of the device that were set up otherwise than the model has them while this was recorded, SI.
     pub settings: BTreeMap<String, f64>,
     /// Where the device is taken up again; `None`: it is replayed in one go from rest.
@@ -87,7 +88,7 @@ pub struct Run {
 impl Run {
     /// The tick at which the machine took this device's commands up, s; 0: at once.
     pub fn command_tick(&self) -> f64 {
-        self.command_tick
+        self.task.every_s
     }
 }
 
@@ -146,7 +147,7 @@ impl Subject {
                 among_neighbours: Arc::default(),
                 commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
-                command_tick: 0.0,
+                task: Task::default(),
                 settings: recording.settings.get(&id).cloned().unwrap_or_default(),
                 restarts: None,
             }
@@ -184,6 +185,12 @@ impl Subject {
             let script = if asks_neighbours { &run.among_neighbours } else { &run.script };
             let alone = Alone::new(device.boxed(), self.kind.ports.len(), script);
             let mut predicted = alone::run(alone, run, &watches);
+            for (predicted, watch) in predicted.iter_mut().zip(&watches) {
+                // By the clock of the reports.
+                if let Predicted::Edges { edges, .. } = predicted {
+                    edges.iter_mut().for_each(|edge| edge.at -= watch.lead);
+                }
+            }
             self.count_on(run, &mut predicted);
             Ok(predicted)
         };
@@ -342,14 +349,21 @@ impl Subject {
     /// Sets the ticks of a run, s: that at which the machine looked at the device, and that at which it took commands up.
     pub(super) fn set_tick(&mut self, run: usize, sample_tick: f64, command_tick: f64) {
         let run = &mut self.runs[run];
-        (run.sample_tick, run.command_tick) = (sample_tick, command_tick);
+        run.sample_tick = sample_tick;
+        run.task.every_s = command_tick;
+    }
+
+    /// Sets what is common to all devices of a run.
+    pub(super) fn set_task(&mut self, run: usize, task: Task) {
+        self.runs[run].task = task;
     }
 
     /// Takes the ticks of a run from the one before it.
     pub(super) fn keep_tick(&mut self, run: usize) {
         let before = &self.runs[run - 1];
-        let (sample_tick, command_tick) = (before.sample_tick, before.command_tick);
-        self.set_tick(run, sample_tick, command_tick);
+        let (sample_tick, task) = (before.sample_tick, before.task);
+        self.runs[run].sample_tick = sample_tick;
+        self.set_task(run, task);
     }
 
     /// Finds the floors of all levels from the recordings and a prediction, which may be wrong: what it gets wrong is slow
@@ -374,10 +388,13 @@ impl Subject {
         }
     }
 
-    /// How far behind its instant a signal is looked at, s. A drive's force is that of the tick that follows: in its middle.
+    /// How far behind its instant a signal is looked at, s. A drive's force is that of the tick that follows: in its middle; what
+    /// is old or filtered is of an instant before.
     fn lead(&self, info: &SignalInfo, run: &Run) -> f64 {
         let is_force = self.kind.name == "kinetwin.ServoAxis" && info.property == "force";
-        if is_force { 0.5 * run.sample_tick } else { 0.0 }
+        let ahead = if is_force { 0.5 * run.sample_tick } else { 0.0 };
+        let filter = if info.kind == Kind::Edge { run.task.filter_s } else { 0.0 };
+        ahead - run.task.age_s - filter
     }
 }
 

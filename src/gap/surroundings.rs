@@ -86,7 +86,10 @@ fn barriers(signals: &[SignalInfo]) -> [Option<usize>; 2] {
 
 fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run: &mut Run) -> Script {
     let places = barriers(signals);
-    let tracks: [Option<&Track>; 2] = places.map(|place| run.tracks[place?].as_ref());
+    // By the device's own time: flags are late by what is common to all.
+    let late = run.task.age_s + run.task.filter_s;
+    let tracks: [Option<Track>; 2] = places.map(|place| Some(run.tracks[place?].as_ref()?.earlier(late)));
+    let tracks: [Option<&Track>; 2] = [tracks[0].as_ref(), tracks[1].as_ref()];
     let Some(grid) = tracks.iter().flatten().next().map(|track| track.grid.clone()) else {
         return Script::default();
     };

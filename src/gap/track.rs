@@ -127,6 +127,17 @@ impl Track {
         (Cow::Owned(values), Cow::Owned(predicted))
     }
 
+    /// The same with all instants earlier by so much, s.
+    pub(super) fn earlier(&self, by: f64) -> Track {
+        let mut track = self.clone();
+        if by != 0.0 {
+            let mut grid = Grid::clone(&self.grid);
+            grid.instants.iter_mut().for_each(|at| *at -= by);
+            track.grid = Arc::new(grid);
+        }
+        track
+    }
+
     /// Whether an instant of the grid is no evidence.
     pub fn is_blind(&self, index: usize) -> bool {
         self.blind.iter().any(|(from, to)| (*from..=*to).contains(&index))

@@ -1,0 +1,296 @@
+//! What the task of a machine does to all of its devices alike: it takes commands up at its own instants, what it reports is somewhat
+//! old by then, and its inputs are filtered.
+//!
+//! A PLC runs its task every so often, with a phase that nobody wrote down; a drive answers a bus cycle later; every input passes
+//! the same filter. All of that is the recording's, not a device's. It is looked for once, before any device is, and only where
+//! several devices ask for the same: what one device alone is late by is its own gap. (Within one clock no offset of a device is
+//! ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
+//! most [`MOST_FILTER_S`].
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::cause::nuisances;
+use super::edges::interval;
+use super::grid::median;
+use super::overrides::Overrides;
+use super::prediction::{Predicted, Prediction};
+use super::subject::{Subject, beam_of};
+use super::track::Track;
+use crate::effect::EffectError;
+
+/// How old a report may be, s.
+pub const MOST_AGE_S: f64 = 2.5e-3;
+/// How slow the filter of all inputs may be, s.
+pub const MOST_FILTER_S: f64 = 6e-3;
+/// The tasks that are tried, s; 0: commands are taken up at once.
+const TASKS_S: [f64; 7] = [0.0, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3];
+/// What part of a cycle a task may be at most.
+const OF_CYCLE: f64 = 0.2;
+/// Phases that are tried, in parts of a task; then halfway to the neighbours of the best, so many times.
+const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+const HALVINGS: u32 = 3;
+/// Steps of the age and of the filter, s.
+const STEP_S: f64 = 2e-5;
+const FILTER_STEP_S: f64 = 1e-4;
+/// Below this mean square in floors a device is explained.
+const EXPLAINED: f64 = 1.3;
+/// How many devices have to ask for the same.
+const LEAST_DEVICES: usize = 2;
+/// How much nearer each of them must come, in mean squares.
+const NEARER: f64 = 0.6;
+/// How far an edge may be off, standard deviation, s, and how much a stray counts.
+const EDGE_SIGMA_S: f64 = 3e-4;
+const STRAY: f64 = 9.0;
+
+/// What is common to all devices of a recording.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Task {
+    /// Commands are taken up at whole multiples of this behind the phase, s; 0: at once.
+    pub every_s: f64,
+    pub phase_s: f64,
+    /// How old what is reported is at the instant of the report, s.
+    pub age_s: f64,
+    /// By how much later than that flags are reported, s.
+    pub filter_s: f64,
+}
+
+impl Task {
+    /// When a command given at `at` acts.
+    pub fn taken_up(&self, at: f64) -> f64 {
+        if self.every_s > 0.0 {
+            ((at - self.phase_s) / self.every_s - 1e-6).ceil() * self.every_s + self.phase_s
+        } else {
+            at
+        }
+    }
+}
+
+/// Finds what is common in a run, from subjects whose floors are known. `None` where nothing has to be found.
+pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Task>, EffectError> {
+    let voters = subjects.par_iter().map(|subject| Voter::new(subject.only(run))).collect::<Result<Vec<_>, _>>()?;
+    let voters: Vec<Voter> = voters.into_iter().flatten().collect();
+    let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
+    let before: Vec<f64> = now.iter().map(|moments| moments.mean_square(0.0)).collect();
+    if voters.len() < LEAST_DEVICES || median(&before).is_none_or(|middle| middle < EXPLAINED) {
+        return Ok(None);
+    }
+    let mut best = Best { cost: f64::INFINITY, task: Task::default(), squares: Vec::new() };
+    for every_s in TASKS_S.into_iter().filter(|every| *every <= OF_CYCLE * cycle + 1e-12) {
+        let phases: &[f64] = if every_s > 0.0 { &PHASES } else { &[0.0] };
+        for phase in phases {
+            best.weigh(&voters, Task { every_s, phase_s: phase * every_s, ..Task::default() })?;
+        }
+    }
+    for halving in 1..=HALVINGS {
+        let found = best.task;
+        let step = 0.25 * found.every_s / f64::from(1 << halving);
+        for phase_s in [found.phase_s - step, found.phase_s + step] {
+            let phase_s = phase_s.rem_euclid(found.every_s.max(f64::MIN_POSITIVE));
+            if found.every_s > 0.0 {
+                best.weigh(&voters, Task { phase_s, age_s: 0.0, ..found })?;
+            }
+        }
+    }
+    let nearer = before.iter().zip(&best.squares).filter(|(before, after)| **after < NEARER * **before).count();
+    Ok((nearer >= LEAST_DEVICES).then_some(best.task))
+}
+
+/// The best task so far.
+struct Best {
+    cost: f64,
+    task: Task,
+    /// What is left of each device, a mean square in floors.
+    squares: Vec<f64>,
+}
+
+impl Best {
+    /// Tries a task with every age.
+    fn weigh(&mut self, voters: &[Voter], task: Task) -> Result<(), EffectError> {
+        let each = voters.par_iter().map(|voter| voter.moments(Some(task))).collect::<Result<Vec<_>, _>>()?;
+        for step in 0..=(MOST_AGE_S / STEP_S) as u32 {
+            let age_s = f64::from(step) * STEP_S;
+            let squares: Vec<f64> = each.iter().map(|moments| moments.mean_square(age_s)).collect();
+            // A device with a gap of its own has a small say.
+            let cost = squares.iter().map(|square| square.ln_1p()).sum::<f64>();
+            if cost < self.cost {
+                *self = Best { cost, task: Task { age_s, ..task }, squares };
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A device that has a say: what of its levels moves, and how that goes with nominal parameters that may be off.
+struct Voter {
+    subject: Subject,
+    /// Samples that move, by signal and place in its track.
+    kept: Vec<(usize, usize)>,
+    /// By nominal parameter with a tolerance: how far a standard deviation moves each of them, in floors.
+    columns: DMatrix<f64>,
+    /// Of the columns' squares, with what is known of the parameters beforehand.
+    known: Cholesky<f64, Dyn>,
+}
+
+impl Voter {
+    /// A subject of one run; `None` where nothing moves.
+    fn new(subject: Subject) -> Result<Option<Voter>, EffectError> {
+        let nominal = subject.predict(&[], &Overrides::none())?;
+        let mut voter = Voter {
+            kept: Vec::new(),
+            columns: DMatrix::zeros(0, 0),
+            known: Cholesky::pack_dirty(DMatrix::zeros(0, 0)),
+            subject,
+        };
+        voter.kept = voter.moving(&nominal);
+        if voter.kept.is_empty() {
+            return Ok(None);
+        }
+        let (base, _) = voter.rest(&nominal);
+        let free = nuisances(&voter.subject, &nominal);
+        let mut columns = DMatrix::zeros(base.len(), free.len());
+        for (column, nuisance) in free.iter().enumerate() {
+            let off = Overrides::one(nuisance.name, nuisance.nominal + nuisance.deviation);
+            let (moved, _) = voter.rest(&voter.subject.predict(&[], &off)?);
+            columns.set_column(column, &(&base - &moved));
+        }
+        let squares = columns.transpose() * &columns + DMatrix::identity(free.len(), free.len());
+        let Some(known) = squares.cholesky() else { return Ok(None) };
+        (voter.columns, voter.known) = (columns, known);
+        Ok(Some(voter))
+    }
+
+    fn moving(&self, nominal: &Prediction) -> Vec<(usize, usize)> {
+        let run = &self.subject.runs[0];
+        let mut kept = Vec::new();
+        for (place, predicted) in nominal.runs[0].iter().enumerate() {
+            if let (Some(track), Predicted::Level(values)) = (&run.tracks[place], predicted) {
+                let floor = run.floors[place].rms(0.0);
+                let moves = |k: &usize| slope(track, values, *k).abs() * MOST_AGE_S > 0.1 * floor;
+                let seen = (1..values.len().saturating_sub(1)).filter(|k| !track.is_blind(track.first + k));
+                kept.extend(seen.filter(moves).map(|k| (place, k)));
+            }
+        }
+        kept
+    }
+
+    /// What is left of each sample, and its slope, in floors.
+    fn rest(&self, prediction: &Prediction) -> (DVector<f64>, DVector<f64>) {
+        let run = &self.subject.runs[0];
+        let of = |&(place, k): &(usize, usize)| match (&run.tracks[place], &prediction.runs[0][place]) {
+            (Some(track), Predicted::Level(values)) => {
+                let half = if self.subject.signals[place].is_count { 0.5 } else { 0.0 };
+                let floor = run.floors[place].rms(0.0);
+                ((track.values[k] + half - values[k]) / floor, slope(track, values, k) / floor)
+            }
+            _ => (0.0, 0.0),
+        };
+        let (rest, slopes): (Vec<f64>, Vec<f64>) = self.kept.iter().map(of).unzip();
+        (DVector::from_vec(rest), DVector::from_vec(slopes))
+    }
+
+    /// What is left under a task, or as the run has it.
+    fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
+        let mut subject = self.subject.clone();
+        if let Some(task) = task {
+            subject.set_tick(0, 0.0, 0.0);
+            subject.set_task(0, Task { age_s: 0.0, filter_s: 0.0, ..task });
+        }
+        let (rest, slopes) = self.rest(&subject.predict(&[], &Overrides::none())?);
+        // What the nominal parameters can take of them within their tolerances is taken off.
+        let (by_rest, by_slopes) = (self.columns.transpose() * &rest, self.columns.transpose() * &slopes);
+        let (taken, taken_slopes) = (self.known.solve(&by_rest), self.known.solve(&by_slopes));
+        Ok(Moments {
+            squares: rest.norm_squared() - by_rest.dot(&taken),
+            slopes: slopes.norm_squared() - by_slopes.dot(&taken_slopes),
+            products: rest.dot(&slopes) - by_rest.dot(&taken_slopes),
+            count: rest.len() as f64,
+        })
+    }
+}
+
+/// How steeply a level is predicted to change about a sample.
+fn slope(track: &Track, predicted: &[f64], k: usize) -> f64 {
+    let instants = &track.grid.instants[track.first..];
+    (predicted[k + 1] - predicted[k - 1]) / (instants[k + 1] - instants[k - 1]).max(1e-9)
+}
+
+/// Of all levels of a device: squares of what is left, of the slopes, and their products, in units of the floors.
+struct Moments {
+    squares: f64,
+    slopes: f64,
+    products: f64,
+    count: f64,
+}
+
+impl Moments {
+    /// The mean square of what is left of reports that are so old.
+    fn mean_square(&self, age: f64) -> f64 {
+        let sum = self.squares + 2.0 * age * self.products + age * age * self.slopes;
+        if self.count > 0.0 { sum.max(0.0) / self.count } else { 0.0 }
+    }
+}
+
+/// By how much all flags but beams are late beyond the age, s: the same of several devices; 0 where they do not agree on any.
+pub(super) fn find_filter(subjects: &[Subject], nominal: &[Prediction], run: usize) -> f64 {
+    let late: Vec<Vec<(f64, f64)>> =
+        subjects.iter().zip(nominal).map(|(subject, nominal)| late(subject, nominal, run)).collect();
+    let late: Vec<Vec<(f64, f64)>> = late.into_iter().filter(|edges| edges.len() >= 4).collect();
+    let cost = |edges: &[(f64, f64)], filter: f64| {
+        let outside = |(least, most): &(f64, f64)| (least - filter).max(filter - most).max(0.0) / EDGE_SIGMA_S;
+        edges.iter().map(|edge| outside(edge).powi(2).min(STRAY)).sum::<f64>() / edges.len() as f64
+    };
+    let total = |filter: f64| late.iter().map(|edges| cost(edges, filter).ln_1p()).sum::<f64>();
+    let steps = 0..=(MOST_FILTER_S / FILTER_STEP_S) as u32;
+    let filters = steps.map(|step| f64::from(step) * FILTER_STEP_S);
+    let costs: Vec<(f64, f64)> = filters.map(|filter| (total(filter), filter)).collect();
+    let Some(least) = costs.iter().map(|(cost, _)| *cost).min_by(f64::total_cmp) else { return 0.0 };
+    // Between looks a span of filters may do equally well: the middle of it.
+    let alike: Vec<f64> = costs.iter().filter(|(cost, _)| *cost < least + 0.02).map(|(_, filter)| *filter).collect();
+    let best = median(&alike).unwrap_or(0.0);
+    let nearer = late.iter().filter(|edges| cost(edges, best) < NEARER * cost(edges, 0.0)).count();
+    if nearer >= LEAST_DEVICES { best } else { 0.0 }
+}
+
+/// Between which delays each flag's edge lies behind its predicted instant, s.
+fn late(subject: &Subject, nominal: &Prediction, run: usize) -> Vec<(f64, f64)> {
+    let mut late = Vec::new();
+    for (place, info) in subject.signals.iter().enumerate() {
+        let (Some(track), Predicted::Edges { edges, .. }) =
+            (&subject.runs[run].tracks[place], &nominal.runs[run][place])
+        else {
+            continue;
+        };
+        if beam_of(info).is_some() {
+            continue;
+        }
+        for edge in track.edges.iter().filter(|edge| !track.is_blind(edge.index)) {
+            let (before, seen) = interval(track, edge.index);
+            let same = edges.iter().filter(|other| other.to == edge.to);
+            let nearest = same.min_by(|a, b| (a.at - seen).abs().total_cmp(&(b.at - seen).abs()));
+            late.extend(nearest.map(|nearest| (before - nearest.at, seen - nearest.at)));
+        }
+    }
+    late
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_waits_for_the_task() {
+        let task = Task { every_s: 5e-4, phase_s: 1e-4, ..Task::default() };
+        assert!((task.taken_up(1.0001) - 1.0001).abs() < 1e-9);
+        assert!((task.taken_up(1.00011) - 1.0006).abs() < 1e-9);
+        assert_eq!(Task::default().taken_up(1.23), 1.23);
+    }
+
+    #[test]
+    fn an_age_shows_in_what_moves() {
+        let moments = Moments { squares: 100.0 * 4.0, slopes: 100.0 * 4e6, products: -100.0 * 4e3, count: 100.0 };
+        // Off by twice the floor at 2000 floors a second: 1 ms.
+        assert!(moments.mean_square(1e-3) < 1e-9 && moments.mean_square(0.0) == 4.0);
+    }
+}
