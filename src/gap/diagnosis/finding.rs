@@ -54,6 +54,9 @@ impl Finding {
 /// What of a gap must be explained for the answer to be more than unknown.
 const WORTH_HAVING: f64 = 0.3;
 
+/// What may be left of a gap that is explained, whatever it goes with.
+const MUCH: f64 = 0.25;
+
 /// Looks at one device. `None` where its reports are not in the recordings.
 pub(super) fn find(
     place: usize,
@@ -95,6 +98,8 @@ pub(super) fn find(
     finding.conclusion = match () {
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
         () if finding.remainder.is_significant => Conclusion::Partial,
+        // Much is left that goes with nothing that is looked for.
+        () if finding.remainder.is_large && finding.remainder.share > MUCH => Conclusion::Partial,
         () => Conclusion::Explained,
     };
     finding.replays = bench.replays();

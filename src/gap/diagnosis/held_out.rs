@@ -54,7 +54,6 @@ impl Measured {
         for (place, subject) in held_out.subjects.iter().enumerate() {
             // What was not looked at is not measured either.
             let Some(finding) = findings.iter().find(|finding| finding.subject == place) else { continue };
-            let before = subject.score(&held_out.nominal[place]);
             let specs = finding.specs();
             let (bare, best) = (&finding.ladder.bare.overrides, &finding.ladder.best.overrides);
             let with = |subject: &Subject| match specs.is_empty() {
@@ -62,6 +61,9 @@ impl Measured {
                 false => subject.predict(&specs, best).ok().map(|with| subject.score(&with)),
             };
             let after = with(subject);
+            // What lies within the tolerances of nominal parameters is no gap: they are as the training has them.
+            let nominal = subject.predict(&[], bare).unwrap_or_else(|_| held_out.nominal[place].clone());
+            let before = subject.score(&nominal);
             let after = after.as_ref().unwrap_or(&before);
             let windows = subject.is_taken_up_again().then(|| subject.in_windows()).and_then(|windowed| {
                 let before = windowed.score(&windowed.predict(&[], bare).ok()?);
@@ -74,7 +76,7 @@ impl Measured {
                     device: subject.id.instance(plant).name.clone(),
                     share: finding.misfit / all.max(1e-12),
                     signals: signals(plant, subject, (&before, after), windows.as_ref()),
-                    regimes: regimes(subject, &held_out.nominal[place], &before),
+                    regimes: regimes(subject, &nominal, &before),
                 });
             }
         }
