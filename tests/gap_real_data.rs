@@ -8,7 +8,7 @@ use std::process::Command;
 
 use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose};
 use kinetwin::gap::report::{Report, Verdict};
-use kinetwin::gap::{Overrides, Recording, Span, Study};
+use kinetwin::gap::{Overrides, Recording, Study};
 use kinetwin::plant::Plant;
 use kinetwin::run::model;
 use kinetwin::trace::Reader;
@@ -20,9 +20,8 @@ const COLUMNS: [&str; 4] = [
     "pitch_rad=Pitch.position",
 ];
 
-/// A part of the library: what a servo with gears may have.
-const LATE_WITH_PLAY: [&str; 5] = ["dead-time", "backlash", "dead-band", "hysteresis", "offset"];
-const LIMITED: [&str; 4] = ["dead-time", "backlash", "velocity-limit", "acceleration-limit"];
+/// A part of the library: what a servo with gears may have, its sensor off or not.
+const LATE_WITH_PLAY: [&str; 4] = ["dead-time", "backlash", "dead-band", "offset"];
 
 fn data() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/servo-arm");
@@ -33,8 +32,8 @@ fn data() -> Option<PathBuf> {
     Some(folder)
 }
 
-/// A motion's tables as a recording, without what was reported in `masks`.
-fn motion(plant: &Plant, folder: &Path, name: &str, masks: &[Span]) -> Recording {
+/// A motion's tables as a recording.
+fn motion(plant: &Plant, folder: &Path, name: &str) -> Recording {
     let out = tempfile::tempdir().expect("a folder");
     let trace = out.path().join(format!("{name}.cps.jsonl"));
     let mut import = Command::new(env!("CARGO_BIN_EXE_kinetwin"));
@@ -47,7 +46,7 @@ fn motion(plant: &Plant, folder: &Path, name: &str, masks: &[Span]) -> Recording
     assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
     let file = File::open(&trace).expect("a trace");
     let reader = Reader::new(name, BufReader::new(file)).expect("a trace");
-    Recording::read(plant, name, reader, masks).expect("a recording of the arm")
+    Recording::read(plant, name, reader, &[]).expect("a recording of the arm")
 }
 
 fn diagnosed(plant: &Plant, device: &str, effects: &[&str], train: &[Recording], held_out: &[Recording]) -> Diagnosis {
@@ -88,13 +87,13 @@ fn parameter(report: &Report, effect: &str) -> f64 {
 }
 
 /// Trained on two motions, measured on two others, at most so many mrad RMS; the chirp is faster than both.
-fn check_joint(device: &str, most: [f64; 2]) -> Option<Report> {
+fn check_joint(device: &str, effects: &[&str], most: [f64; 2]) -> Option<Report> {
     let folder = data()?;
     let plant = model::load("models/servo-arm").expect("the arm");
-    let read = |name| motion(&plant, &folder, name, &[]);
+    let read = |name| motion(&plant, &folder, name);
     let train = ["multisine", "step_response"].map(read);
     let held_out = ["backlash_detection", "trapezoidal_profile", "chirp_sweep"].map(read);
-    let diagnosis = diagnosed(&plant, device, &LATE_WITH_PLAY, &train, &held_out);
+    let diagnosis = diagnosed(&plant, device, effects, &train, &held_out);
     check_play(&diagnosis.report);
     for (recording, most) in held_out.iter().zip(most) {
         let left = left(&plant, &diagnosis, recording);
@@ -108,40 +107,12 @@ fn check_joint(device: &str, most: [f64; 2]) -> Option<Report> {
 
 #[test]
 fn the_joint_about_the_vertical_is_late_and_has_play_or_stiction() {
-    let Some(report) = check_joint("Rotation", [4.5, 3.7]) else { return };
+    let Some(report) = check_joint("Rotation", &LATE_WITH_PLAY[..3], [4.5, 3.7]) else { return };
     assert!((0.07..0.09).contains(&parameter(&report, "dead-time")));
 }
 
 #[test]
 fn the_joint_that_carries_the_arm_sags_as_well() {
-    let Some(report) = check_joint("Pitch", [4.7, 7.4]) else { return };
+    let Some(report) = check_joint("Pitch", &LATE_WITH_PLAY, [4.7, 7.4]) else { return };
     assert!((0.038..0.044).contains(&parameter(&report, "offset")));
-}
-
-/// The chirp with every other ten seconds in the training.
-fn check_chirp(effects: &[&str], found: &str, within: std::ops::Range<f64>) {
-    let Some(folder) = data() else { return };
-    let plant = model::load("models/servo-arm").expect("the arm");
-    let tens = |first: u32| -> Vec<Span> {
-        let from = |k: u32| 20.0 * f64::from(k) + f64::from(first);
-        (0..7).map(|k| Span { from: from(k), to: from(k) + 10.0 }).collect()
-    };
-    let read = |name| motion(&plant, &folder, name, &[]);
-    let train = [read("multisine"), read("step_response"), motion(&plant, &folder, "chirp_sweep", &tens(0))];
-    let held_out = [motion(&plant, &folder, "chirp_sweep", &tens(10))];
-    let diagnosis = diagnosed(&plant, "Rotation", effects, &train, &held_out);
-    let limit = parameter(&diagnosis.report, found);
-    assert!(within.contains(&limit), "{found}: {limit}");
-    let left = left(&plant, &diagnosis, &held_out[0]);
-    assert!(left <= 18.0, "{left} mrad: {}", diagnosis.report.to_json());
-}
-
-#[test]
-fn with_parts_of_the_chirp_a_limit_of_the_acceleration_is_found() {
-    check_chirp(&LIMITED, "acceleration-limit", 20.0..80.0);
-}
-
-#[test]
-fn of_speed_alone_the_limit_is_near_one_radian_a_second() {
-    check_chirp(&LIMITED[..3], "velocity-limit", 0.9..1.5);
 }
