@@ -1,0 +1,113 @@
+//! The command's arguments.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Plants that share nothing with the diagnosis, and cases of them whose answers are sealed.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true, arg_required_else_help = true, after_long_help = HELP)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    #[command(flatten)]
+    pub practice: Option<Practice>,
+}
+
+const HELP: &str = "\
+Examples:
+  withheld-plant cases short --exam short
+  withheld-plant open short --reports short-reports -o answers.json
+  withheld-plant --seed 7 --cases 24 --out practice --answers practice.json
+
+Exit codes:
+  0  done
+  2  bad input or use; answers that may not be opened yet";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Writes an exam: numbered cases, and their answers sealed
+    Cases(Cases),
+    /// Opens an exam's answers, when every case has been answered
+    Open(Open),
+}
+
+/// Cases with their answers in the open, to practise on.
+#[derive(Debug, Args)]
+pub struct Practice {
+    /// What the cases are a function of
+    #[arg(long, value_name = "N")]
+    pub seed: u64,
+    /// How many, in the shares of the whole exam
+    #[arg(long, value_name = "N")]
+    pub cases: usize,
+    /// The folder for the cases, which must not exist yet
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// The file for their answers, outside of that folder
+    #[arg(long, value_name = "FILE")]
+    pub answers: PathBuf,
+    /// Reports of no age, tasks that take commands at once, unfiltered flags
+    #[arg(long)]
+    pub prompt: bool,
+    /// Machines built exactly to their figures, for models/rig, which tolerates nothing
+    #[arg(long)]
+    pub exact: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Cases {
+    /// The folder for the cases, which must not exist yet
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// Which exam: its size, and which seed it has
+    #[arg(long)]
+    pub exam: Exam,
+    /// What the cases are a function of [default: the short and the training exam's own; the final one's is drawn and sealed]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// So many cases instead, in the shares of the whole exam
+    #[arg(long, value_name = "N")]
+    pub cases: Option<usize>,
+    /// The file for the key [default: beside the folder, DIR.key]
+    #[arg(long, value_name = "FILE")]
+    pub key: Option<PathBuf>,
+}
+
+/// Which exam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Exam {
+    /// 24 cases, some of each sort
+    Short,
+    /// The whole exam, for calibration to look at
+    Training,
+    /// The whole exam that nothing may look at
+    Final,
+}
+
+impl Exam {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Exam::Short => "short",
+            Exam::Training => "training",
+            Exam::Final => "final",
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct Open {
+    /// The exam's folder
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// The folder of the reports, with the manifest of their hashes
+    #[arg(long, value_name = "DIR")]
+    pub reports: PathBuf,
+    /// The key's file [default: beside the folder, DIR.key]
+    #[arg(long, value_name = "FILE")]
+    pub key: Option<PathBuf>,
+    /// The file for the answers
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}

@@ -1,0 +1,340 @@
+//! Cases: machines as they are built, listened to as it happens, with something wrong or nothing.
+
+use std::io;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::catalogue::{ENTRIES, Entry, Spot};
+use crate::chance::Dice;
+use crate::magnitude::{Magnitude, distance};
+use crate::plant::{Command, Plant};
+use crate::quirk::Quirk;
+use crate::record::{self, Seen, Surroundings};
+use crate::rig::RigParameters;
+use crate::script::{self, Part};
+
+/// The model that rig cases are diagnosed with, and the tolerance that it declares.
+const MODEL: &str = "models/rig-toleranced";
+const EXACT_MODEL: &str = "models/rig";
+const TOLERANCE: f64 = 0.01;
+
+/// What sort of case one is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sort {
+    /// One effect of the library.
+    Single,
+    /// Nothing is wrong.
+    None,
+    /// Two effects on one device.
+    TwoOnOneDevice,
+    /// One effect on each of two devices.
+    OneOnEachOfTwo,
+    /// An effect that no file of the library describes.
+    Outside,
+}
+
+/// The truth about a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Answer {
+    /// `case-017`
+    pub case: String,
+    pub model: String,
+    pub sort: Sort,
+    pub magnitude: Magnitude,
+    /// Of the whole, in the training recording.
+    pub distance: f64,
+    pub effects: Vec<Quirk>,
+    /// How the machine was listened to.
+    pub surroundings: Surroundings,
+}
+
+/// What is easier about practice than about an exam.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Conditions {
+    /// Reports of no age, tasks that take commands at once, unfiltered flags.
+    pub prompt: bool,
+    /// Machines built exactly to their figures.
+    pub exact: bool,
+}
+
+impl Conditions {
+    /// The model that the cases are diagnosed with.
+    fn model(self) -> &'static str {
+        if self.exact { EXACT_MODEL } else { MODEL }
+    }
+}
+
+/// A case to be made.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    sort: Sort,
+    magnitude: Magnitude,
+    /// The effects that are to be tried first; what does not show enough in the recording is replaced.
+    first: Vec<(usize, Spot)>,
+    seed: u64,
+}
+
+/// How many cases of each sort.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    pub single: usize,
+    pub faint: usize,
+    pub below: usize,
+    pub none: usize,
+    pub two_on_one: usize,
+    pub one_on_each: usize,
+    pub outside: usize,
+}
+
+impl Sizes {
+    /// A fixed sample of 24, by the shares of the whole but for the rarest.
+    pub const SHORT: Sizes =
+        Sizes { single: 8, faint: 2, below: 2, none: 6, two_on_one: 1, one_on_each: 1, outside: 4 };
+    /// The whole exam.
+    pub const WHOLE: Sizes =
+        Sizes { single: 400, faint: 150, below: 150, none: 400, two_on_one: 60, one_on_each: 60, outside: 200 };
+
+    /// All of them together.
+    pub fn sum(self) -> usize {
+        self.single + self.faint + self.below + self.none + self.two_on_one + self.one_on_each + self.outside
+    }
+
+    /// So many cases in the shares of these; the rest is single effects.
+    pub fn scaled(self, cases: usize) -> Sizes {
+        let part = |of: usize| (of * cases) / self.sum().max(1);
+        let mut scaled = Sizes {
+            single: 0,
+            faint: part(self.faint),
+            below: part(self.below),
+            none: part(self.none),
+            two_on_one: part(self.two_on_one),
+            one_on_each: part(self.one_on_each),
+            outside: part(self.outside),
+        };
+        scaled.single = cases - scaled.sum();
+        scaled
+    }
+}
+
+/// The cases of `seed`, in an order that says nothing.
+pub fn plans(sizes: Sizes, seed: u64) -> Vec<Plan> {
+    let mut dice = Dice::new(seed, 1);
+    let mut library = Deck::new(false);
+    let mut outside = Deck::new(true);
+    let mut plans = Vec::new();
+    let clear = |k: usize| if k.is_multiple_of(2) { Magnitude::Clear } else { Magnitude::Gross };
+    for (count, sort, magnitude) in [
+        (sizes.single, Sort::Single, None),
+        (sizes.faint, Sort::Single, Some(Magnitude::Faint)),
+        (sizes.below, Sort::Single, Some(Magnitude::BelowNoise)),
+        (sizes.none, Sort::None, Some(Magnitude::None)),
+        (sizes.two_on_one, Sort::TwoOnOneDevice, None),
+        (sizes.one_on_each, Sort::OneOnEachOfTwo, None),
+        (sizes.outside, Sort::Outside, None),
+    ] {
+        for k in 0..count {
+            let magnitude = magnitude.unwrap_or(clear(k));
+            let graded = magnitude == Magnitude::Faint || magnitude == Magnitude::BelowNoise;
+            let first = match sort {
+                Sort::None => Vec::new(),
+                Sort::Single => vec![library.next(&mut dice, |entry, _| entry.has_strength() || !graded)],
+                Sort::Outside => vec![outside.next(&mut dice, |_, _| true)],
+                Sort::TwoOnOneDevice | Sort::OneOnEachOfTwo => {
+                    let one = library.next(&mut dice, |entry, _| entry.has_strength());
+                    let same = sort == Sort::TwoOnOneDevice;
+                    let two = library.next(&mut dice, |entry, (device, ..)| {
+                        let other = entry.effect != ENTRIES[one.0].effect && entry.place != ENTRIES[one.0].place;
+                        entry.has_strength() && (device == one.1.0) == same && (other || !same)
+                    });
+                    vec![one, two]
+                }
+            };
+            plans.push(Plan { sort, magnitude, first, seed: dice.seed() });
+        }
+    }
+    dice.shuffle(&mut plans);
+    plans
+}
+
+/// Every effect at every spot, dealt out again when all have had their turn.
+struct Deck {
+    outside: bool,
+    left: Vec<(usize, Spot)>,
+}
+
+impl Deck {
+    fn new(outside: bool) -> Deck {
+        Deck { outside, left: Vec::new() }
+    }
+
+    fn next(&mut self, dice: &mut Dice, fits: impl Fn(&Entry, Spot) -> bool) -> (usize, Spot) {
+        let is_fit = |(entry, spot): &(usize, Spot)| fits(&ENTRIES[*entry], *spot);
+        if !self.left.iter().any(is_fit) {
+            let all = ENTRIES.iter().enumerate().filter(|(_, entry)| entry.effect.starts_with("x-") == self.outside);
+            let mut all: Vec<_> = all.flat_map(|(at, entry)| entry.spots.iter().map(move |spot| (at, *spot))).collect();
+            dice.shuffle(&mut all);
+            // Each effect once before any comes at its second spot.
+            let mut turns = std::collections::BTreeMap::new();
+            let turn = |(at, _): &(usize, Spot)| {
+                let turn = turns.entry(*at).or_insert(0);
+                *turn += 1;
+                *turn
+            };
+            let order: Vec<i32> = all.iter().map(turn).collect();
+            let mut both: Vec<_> = order.into_iter().zip(all).collect();
+            both.sort_by_key(|(turn, _)| std::cmp::Reverse(*turn));
+            self.left.extend(both.into_iter().map(|(_, one)| one));
+        }
+        let at = self.left.iter().rposition(is_fit).unwrap_or(0);
+        self.left.remove(at)
+    }
+}
+
+/// A case that can be written.
+struct Bench {
+    built: RigParameters,
+    around: Surroundings,
+    scripts: [Vec<Command>; 2],
+    seed: u64,
+}
+
+impl Bench {
+    fn new(seed: u64, conditions: Conditions) -> Bench {
+        let mut dice = Dice::new(seed, 2);
+        let built = RigParameters::built(if conditions.exact { 0.0 } else { TOLERANCE }, &mut dice);
+        let around = Surroundings::draw(&mut dice);
+        let around = if conditions.prompt { around.prompt() } else { around };
+        let scripts = [Part::Train, Part::HeldOut].map(|part| record::heard(&script::program(part, &mut dice)));
+        Bench { built, around, scripts, seed }
+    }
+
+    fn run(&self, part: Part, quirks: &[Quirk], around: &Surroundings) -> (Plant, Seen) {
+        let mut plant = self.built.plant(quirks, self.seed ^ part as u64);
+        let script = &self.scripts[part as usize];
+        let seen = record::watch(&mut plant, script, around, part.seconds(), self.seed ^ part as u64);
+        (plant, seen)
+    }
+
+    /// How far these effects carry the training recording from what it would be.
+    fn distance(&self, quirks: &[Quirk], healthy: &Seen) -> f64 {
+        let (plant, seen) = self.run(Part::Train, quirks, &self.around);
+        distance(&seen, healthy, &plant.signals, &self.around)
+    }
+
+    /// The effect with the strength that shows as much as it is to.
+    fn quirk(
+        &self,
+        entry: &Entry,
+        spot: Spot,
+        magnitude: Magnitude,
+        healthy: &Seen,
+        seed: u64,
+    ) -> Option<(Quirk, f64)> {
+        let (low, high) = magnitude.range();
+        let at = |strength: f64| {
+            let quirk = entry.quirk(spot, strength, &mut Dice::new(seed, 3));
+            let distance = self.distance(std::slice::from_ref(&quirk), healthy);
+            (quirk, distance)
+        };
+        if !entry.has_strength() {
+            return Some(at(1.0)).filter(|(_, distance)| *distance >= Magnitude::Clear.range().0);
+        }
+        let mut dice = Dice::new(seed, 4);
+        let shows = magnitude == Magnitude::Clear || magnitude == Magnitude::Gross;
+        let least = if shows { entry.tolerated.max(1e-6) } else { 1e-6 };
+        let (mut weak, mut strong) =
+            (least, if magnitude == Magnitude::Gross { dice.log_between(0.3, 1.0) } else { 1.0 });
+        let most = at(strong);
+        let goal = match magnitude {
+            Magnitude::Gross => return Some(most).filter(|(_, distance)| *distance >= low),
+            Magnitude::BelowNoise => dice.between(0.2, 1.0),
+            _ => dice.log_between(low, high),
+        };
+        if most.1 < goal {
+            return Some(most).filter(|(_, distance)| *distance >= low);
+        }
+        if shows && least > 1e-6 {
+            // What a tolerance would hide must be stronger than it, and then may show more.
+            let found = at(least);
+            if found.1 >= goal {
+                return Some(found);
+            }
+        }
+        // Bisection in the logarithm of the strength; how near it comes to its goal is chance.
+        for _ in 0..14 {
+            let middle = (weak * strong).sqrt();
+            let found = at(middle);
+            if (low..=high).contains(&found.1) && (found.1 / goal - 1.0).abs() < 0.15 {
+                return Some(found);
+            }
+            if found.1 < goal { weak = middle } else { strong = middle }
+        }
+        Some(at(strong)).filter(|(_, distance)| (low..=high).contains(distance))
+    }
+}
+
+impl Plan {
+    /// Makes the case in `folder`, which it creates, and gives the truth about it.
+    pub fn make(&self, folder: &Path, conditions: Conditions) -> io::Result<Answer> {
+        let bench = Bench::new(self.seed, conditions);
+        let model = conditions.model();
+        let (quirks, distance) = self.wrongs(&bench);
+        std::fs::create_dir_all(folder)?;
+        std::fs::write(folder.join("model"), format!("{model}\n"))?;
+        for (part, name) in [(Part::Train, "train"), (Part::HeldOut, "holdout")] {
+            let (plant, seen) = bench.run(part, &quirks, &bench.around);
+            let file = std::fs::File::create(folder.join(format!("{name}.cps.jsonl.zst")))?;
+            let script = &bench.scripts[part as usize];
+            let seed = bench.seed ^ part as u64;
+            record::write(io::BufWriter::new(file), model, script, &seen, &plant.signals, &bench.around, seed)?;
+        }
+        let case = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let magnitude = match self.sort {
+            Sort::None => Magnitude::None,
+            // What is stronger than its tolerance may show more than was meant.
+            _ => Magnitude::of(distance).unwrap_or(self.magnitude),
+        };
+        let surroundings = bench.around;
+        Ok(Answer {
+            case,
+            model: model.to_owned(),
+            sort: self.sort,
+            magnitude,
+            distance,
+            effects: quirks,
+            surroundings,
+        })
+    }
+
+    fn wrongs(&self, bench: &Bench) -> (Vec<Quirk>, f64) {
+        if self.sort == Sort::None {
+            return (Vec::new(), 0.0);
+        }
+        let (_, healthy) = bench.run(Part::Train, &[], &bench.around);
+        let mut dice = Dice::new(self.seed, 5);
+        let mut quirks: Vec<Quirk> = Vec::new();
+        for (entry, spot) in &self.first {
+            let mut deck = Deck::new(self.sort == Sort::Outside);
+            let (mut entry, mut spot) = (*entry, *spot);
+            let graded = self.magnitude == Magnitude::Faint || self.magnitude == Magnitude::BelowNoise;
+            for _ in 0..40 {
+                let magnitude = self.magnitude;
+                let found = bench.quirk(&ENTRIES[entry], spot, magnitude, &healthy, dice.seed());
+                if let Some((quirk, _)) = found {
+                    quirks.push(quirk);
+                    break;
+                }
+                let (device, is_single) = (spot.0, self.first.len() == 1);
+                let taken: Vec<String> = quirks.iter().map(|quirk| quirk.effect.clone()).collect();
+                (entry, spot) = deck.next(&mut dice, |entry, spot| {
+                    let fits = is_single || spot.0 == device && !taken.iter().any(|one| one == entry.effect);
+                    fits && (entry.has_strength() || !graded && is_single)
+                });
+            }
+        }
+        let distance = bench.distance(&quirks, &healthy);
+        (quirks, distance)
+    }
+}

@@ -1,0 +1,120 @@
+//! Exams: cases in numbered folders, their answers apart.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use sealed_answers::SealError;
+use serde::Serialize;
+
+use crate::arguments::{Arguments, Cases, Command, Exam, Open, Practice};
+use crate::cases::{Answer, Conditions, Plan, Sizes, plans};
+
+/// The seeds of the exams that may be made again. They are unlike, so that nothing learnt on one is known of the other.
+const SHORT_SEED: u64 = 20_260_131;
+const TRAINING_SEED: u64 = 71_828_182;
+
+/// Why an exam could not be made or opened.
+#[derive(Debug, thiserror::Error)]
+pub enum ExamError {
+    /// A folder or file could not be written.
+    #[error("failed to write {}", path.display())]
+    Write {
+        path: PathBuf,
+        #[source]
+        source: io::Error,
+    },
+    /// What stands there might be an exam that somebody still needs.
+    #[error("{} exists: expected a folder that is not there yet; name another, or remove it", path.display())]
+    Exists { path: PathBuf },
+    /// Answers in the folder of the cases would be read by whoever diagnoses them.
+    #[error("{} lies in the folder of the cases: name a file outside of it", path.display())]
+    AnswersInside { path: PathBuf },
+    /// The answers could not be sealed or opened.
+    #[error(transparent)]
+    Sealed(#[from] SealError),
+    /// The answers have no JSON form.
+    #[error("failed to write the answers as JSON")]
+    Json(#[from] serde_json::Error),
+}
+
+/// All answers of an exam.
+#[derive(Serialize)]
+struct Answers<'a> {
+    schema: &'static str,
+    exam: &'a str,
+    seed: u64,
+    cases: Vec<Answer>,
+}
+
+/// Does what was asked, and says what was done.
+pub fn run(arguments: Arguments) -> Result<String, ExamError> {
+    match (arguments.command, arguments.practice) {
+        (Some(Command::Cases(asked)), _) => cases(&asked),
+        (Some(Command::Open(asked)), _) => open(&asked),
+        (None, Some(asked)) => practice(&asked),
+        (None, None) => Ok(String::new()),
+    }
+}
+
+fn cases(asked: &Cases) -> Result<String, ExamError> {
+    let sizes = if asked.exam == Exam::Short { Sizes::SHORT } else { Sizes::WHOLE };
+    let sizes = asked.cases.map_or(sizes, |cases| Sizes::WHOLE.scaled(cases));
+    let seed = asked.seed.unwrap_or_else(|| match asked.exam {
+        Exam::Short => SHORT_SEED,
+        Exam::Training => TRAINING_SEED,
+        Exam::Final => sealed_answers::random_seed(),
+    });
+    let answers = make(&asked.folder, sizes, seed, asked.exam.name(), Conditions::default())?;
+    let key = asked.key.clone().unwrap_or_else(|| sealed_answers::default_key(&asked.folder));
+    sealed_answers::seal(&asked.folder, &key, &answers)?;
+    Ok(format!("{} cases in {}, the key of their answers in {}", sizes.sum(), asked.folder.display(), key.display()))
+}
+
+fn practice(asked: &Practice) -> Result<String, ExamError> {
+    if asked.answers.starts_with(&asked.out) {
+        return Err(ExamError::AnswersInside { path: asked.answers.clone() });
+    }
+    let conditions = Conditions { prompt: asked.prompt, exact: asked.exact };
+    let answers = make(&asked.out, Sizes::WHOLE.scaled(asked.cases), asked.seed, "practice", conditions)?;
+    write(&asked.answers, &answers)?;
+    Ok(format!("{} cases in {}, their answers in {}", asked.cases, asked.out.display(), asked.answers.display()))
+}
+
+fn open(asked: &Open) -> Result<String, ExamError> {
+    let key = asked.key.clone().unwrap_or_else(|| sealed_answers::default_key(&asked.folder));
+    let answers = sealed_answers::open(&asked.folder, &key, &asked.reports)?;
+    write(&asked.output, &answers)?;
+    Ok(format!("the answers of {} are in {}", asked.folder.display(), asked.output.display()))
+}
+
+/// Makes all cases; gives their answers as JSON.
+fn make(folder: &Path, sizes: Sizes, seed: u64, exam: &str, conditions: Conditions) -> Result<Vec<u8>, ExamError> {
+    if folder.exists() {
+        return Err(ExamError::Exists { path: folder.to_owned() });
+    }
+    let plans = plans(sizes, seed);
+    let digits = plans.len().to_string().len().max(3);
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let make = |(number, plan): (usize, &Plan)| {
+        let path = folder.join(format!("case-{:0digits$}", number + 1));
+        plan.make(&path, conditions).map_err(|source| ExamError::Write { path, source })
+    };
+    // Each worker takes every so-manieth case; the answers come back in the cases' order.
+    let made = std::thread::scope(|scope| {
+        let worker = |first: usize| plans.iter().enumerate().skip(first).step_by(workers).map(make).collect::<Vec<_>>();
+        let workers: Vec<_> = (0..workers).map(|first| scope.spawn(move || worker(first))).collect();
+        workers.into_iter().map(|worker| worker.join()).collect::<Vec<_>>()
+    });
+    let mut cases = Vec::new();
+    for worker in made {
+        for case in worker.unwrap_or_else(|panic| std::panic::resume_unwind(panic)) {
+            cases.push(case?);
+        }
+    }
+    cases.sort_by(|one, next| one.case.cmp(&next.case));
+    Ok(serde_json::to_vec_pretty(&Answers { schema: "kinetwin-answers/1", exam, seed, cases })?)
+}
+
+fn write(path: &Path, content: &[u8]) -> Result<(), ExamError> {
+    std::fs::write(path, content).map_err(|source| ExamError::Write { path: path.to_owned(), source })
+}

@@ -1,0 +1,80 @@
+//! An inverter motor with an encoder.
+
+use std::f64::consts::TAU;
+
+use crate::drive::Drive;
+use crate::plant::Device;
+use crate::quirk::{Quirk, Quirks};
+use crate::train::Train;
+
+/// What a motor is built to.
+#[derive(Clone, Debug)]
+pub struct MotorParameters {
+    pub acceleration: f64,
+    pub counts: f64,
+}
+
+/// A motor.
+#[derive(Clone, Debug)]
+pub struct Motor {
+    counts: f64,
+    drive: Drive,
+    train: Train,
+    shaft: f64,
+    target: f64,
+    enable: bool,
+    supply: f64,
+    /// Above a speed the encoder loses counts, so many a second.
+    skips: Option<(f64, f64)>,
+    skipped: f64,
+}
+
+impl Motor {
+    /// A motor called `name`, at rest.
+    pub fn new(parameters: &MotorParameters, quirks: &[Quirk], name: &str) -> Motor {
+        let all = Quirks::of(quirks, name);
+        Motor {
+            counts: parameters.counts,
+            drive: Drive::new(all.parameter("acceleration", parameters.acceleration), all),
+            train: Train::new(all),
+            shaft: 0.0,
+            target: 0.0,
+            enable: false,
+            supply: 1.0 - all.value("supply-drop", "fraction").unwrap_or(0.0),
+            skips: all.get("x-encoder-skips").map(|quirk| (quirk.value("speed"), quirk.value("rate"))),
+            skipped: 0.0,
+        }
+    }
+}
+
+impl Device for Motor {
+    fn command(&mut self, now: f64, port: &str, value: f64) {
+        match port {
+            "speedTarget" => self.target = value,
+            "enable" => self.enable = value != 0.0,
+            _ => {}
+        }
+        self.drive.command(now, self.enable, self.target);
+    }
+
+    fn advance(&mut self, now: f64, span: f64, others: usize) {
+        self.shaft += self.drive.advance(now, span, self.supply.powi(others as i32));
+        let speed = self.drive.speed();
+        self.train.advance(span, self.shaft, speed);
+        if let Some((above, rate)) = self.skips
+            && speed.abs() > above
+        {
+            self.skipped += rate * span * speed.signum();
+        }
+    }
+
+    fn read(&self, _now: f64, values: &mut Vec<f64>) {
+        // A count that is reached exactly is reached, whatever the last place of a sum says.
+        let counts = (self.train.load() / TAU * self.counts - self.skipped.trunc() + 1e-7).floor();
+        values.extend([counts, self.drive.speed(), f64::from(self.enable)]);
+    }
+
+    fn moves(&self) -> bool {
+        self.drive.speed().abs() > 1e-3
+    }
+}

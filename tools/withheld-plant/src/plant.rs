@@ -1,0 +1,125 @@
+//! A plant: devices under one clock.
+
+use std::fmt;
+
+use crate::quirk::Quirk;
+use crate::stream::Stream;
+
+/// The longest step, s. Steps end at every command and every sample besides.
+const STEP: f64 = 1e-4;
+
+/// One machine.
+pub trait Device: fmt::Debug + Send {
+    /// A command arrives at its port: SI units, a BOOL as 0 or 1.
+    fn command(&mut self, now: f64, port: &str, value: f64);
+    /// Moves on by `span` until `now`, while so many others move.
+    fn advance(&mut self, now: f64, span: f64, others: usize);
+    /// Appends what its sensors see, in the order of its signals.
+    fn read(&self, now: f64, values: &mut Vec<f64>);
+    /// Whether it draws from a common supply.
+    fn moves(&self) -> bool;
+}
+
+/// What a report is, and how its sensor scatters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    /// `Belt.velocityActual`
+    pub name: String,
+    pub kind: Kind,
+    /// What it is rounded to; 0 for a flag.
+    pub quantum: f64,
+    /// The standard deviation of its noise where a recording's noise is 1.
+    pub sigma: f64,
+}
+
+/// The type of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// BOOL
+    Flag,
+    /// DINT of a few values.
+    Code,
+    /// DINT that counts.
+    Count,
+    /// REAL
+    Level,
+}
+
+impl Kind {
+    /// Whether it jumps, so that all its changes are kept.
+    pub fn is_edge(self) -> bool {
+        matches!(self, Kind::Flag | Kind::Code)
+    }
+}
+
+impl Signal {
+    /// The device and the port.
+    pub fn parts(&self) -> (&str, &str) {
+        self.name.split_once('.').unwrap_or((&self.name, ""))
+    }
+}
+
+/// A command at its instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Command {
+    pub at: f64,
+    /// `Belt.velocityTarget`
+    pub signal: String,
+    pub value: f64,
+}
+
+/// A plant with what is wrong with it.
+#[derive(Debug)]
+pub struct Plant {
+    pub devices: Vec<(String, Box<dyn Device>)>,
+    pub signals: Vec<Signal>,
+    pub quirks: Vec<Quirk>,
+}
+
+impl Plant {
+    /// Runs under `commands`, sorted by their instants, until `end`; gives what each sensor sees: of edges and of
+    /// whatever is `watched` at every step, of everything else at the sorted `samples` only.
+    pub fn run(&mut self, commands: &[Command], samples: &[f64], watched: &[bool], end: f64) -> Vec<Stream> {
+        let mut streams: Vec<Stream> = self.signals.iter().map(|signal| Stream::new(signal.kind.is_edge())).collect();
+        let (mut now, mut values) = (0.0, Vec::new());
+        let (mut commands, mut samples) = (commands.iter().peekable(), samples.iter().peekable());
+        loop {
+            while let Some(command) = commands.next_if(|command| command.at <= now) {
+                self.tell(now, command);
+            }
+            values.clear();
+            for (_, device) in &self.devices {
+                device.read(now, &mut values);
+            }
+            let is_sample = samples.next_if(|sample| **sample <= now).is_some();
+            for (at, stream) in streams.iter_mut().enumerate() {
+                if is_sample || watched[at] || self.signals[at].kind.is_edge() {
+                    stream.push(now, values[at]);
+                }
+            }
+            if now >= end {
+                return streams;
+            }
+            let next = (now + STEP).min(end);
+            let next = commands.peek().map_or(next, |command| next.min(command.at));
+            let next = samples.peek().map_or(next, |sample| next.min(**sample));
+            self.advance(next, next - now);
+            now = next;
+        }
+    }
+
+    fn tell(&mut self, now: f64, command: &Command) {
+        let Some((device, port)) = command.signal.split_once('.') else { return };
+        if let Some((_, told)) = self.devices.iter_mut().find(|(name, _)| name == device) {
+            told.command(now, port, command.value);
+        }
+    }
+
+    fn advance(&mut self, now: f64, span: f64) {
+        let moving = self.devices.iter().filter(|(_, device)| device.moves()).count();
+        for (_, device) in &mut self.devices {
+            let others = moving - usize::from(device.moves());
+            device.advance(now, span, others);
+        }
+    }
+}

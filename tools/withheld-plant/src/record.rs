@@ -1,0 +1,288 @@
+//! From a plant and a script to a trace: what a recorder beside the machine would have written.
+
+use std::io::{self, Write};
+
+use kinetwin::time::Instant;
+use kinetwin::trace::{Compression, Header, Sender, Source, Writer};
+use kinetwin::value::Value;
+use kinetwin::wire::{Message, SendValueText};
+use serde::{Deserialize, Serialize};
+
+use crate::chance::Dice;
+use crate::plant::{Command, Kind, Plant, Signal};
+use crate::quirk::{Quirk, Quirks};
+use crate::rig::COMMANDS;
+use crate::stream::Stream;
+
+/// How a machine is listened to. Nobody who diagnoses it knows any of this.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Surroundings {
+    /// From one report to the next, s.
+    pub cycle: f64,
+    /// When the first report is due, s.
+    pub phase: f64,
+    /// How much older the state is than its report, s.
+    pub age: f64,
+    /// How much later than due reports are stamped: |N(0, jitter)|, s.
+    pub jitter: f64,
+    /// The machine's task takes commands when it runs: its cycle and phase, s; a cycle of 0 takes them at once.
+    pub task: f64,
+    pub task_phase: f64,
+    /// A flag is seen once it has stood for so long, s.
+    pub filter: f64,
+    /// How many times its sigma each level scatters.
+    pub noise: f64,
+    /// The noise forgets itself with this time constant, s.
+    pub noise_time: f64,
+}
+
+impl Surroundings {
+    /// At random.
+    pub fn draw(dice: &mut Dice) -> Surroundings {
+        let cycle = *dice.one_of(&[0.01, 0.02, 0.02, 0.05]);
+        let task = *dice.one_of(&[0.0, 1e-4, 5e-4, 1e-3]);
+        Surroundings {
+            cycle,
+            phase: dice.between(0.2, 1.0) * cycle,
+            age: dice.between(0.0, 1e-3),
+            jitter: *dice.one_of(&[0.0, 2e-4, 1e-3]),
+            task,
+            task_phase: dice.between(0.0, 1.0) * task,
+            filter: *dice.one_of(&[0.0, 5e-4, 1e-3]),
+            noise: *dice.one_of(&[0.0, 0.3, 1.0, 2.5]),
+            noise_time: dice.log_between(2e-3, 2e-2),
+        }
+    }
+
+    /// The same, without what makes a report older or a command later than its stamp.
+    pub fn prompt(self) -> Surroundings {
+        Surroundings { age: 0.0, task: 0.0, task_phase: 0.0, filter: 0.0, ..self }
+    }
+}
+
+/// One message under way: what stands in a line of the trace.
+struct Said {
+    at: f64,
+    from: Sender,
+    text: String,
+}
+
+/// What was seen of each signal at each report's instant, before noise and rounding.
+pub struct Seen {
+    /// When each report was due.
+    pub due: Vec<f64>,
+    /// By report, then by signal.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// Lets `plant` run under `script` and looks at it.
+pub fn watch(plant: &mut Plant, script: &[Command], around: &Surroundings, end: f64, seed: u64) -> Seen {
+    let mut dice = Dice::new(seed, 21);
+    let quirks = plant.quirks.clone();
+    let due: Vec<f64> = (0..).map(|k| around.phase + f64::from(k) * around.cycle).take_while(|at| *at < end).collect();
+    let samples: Vec<f64> = due.iter().map(|at| (at - around.age).max(0.0)).collect();
+    let commands = taken(script, &quirks, around, end, &mut dice);
+    let signals = plant.signals.clone();
+    let watched: Vec<bool> = signals.iter().map(|signal| passes(&quirks, signal).next().is_some()).collect();
+    let streams = plant.run(&commands, &samples, &watched, end);
+    let mut streams: Vec<Stream> = streams
+        .into_iter()
+        .zip(&signals)
+        .map(|(stream, signal)| reported(stream, signal, &quirks, around, end, &mut dice))
+        .collect();
+    swap(&mut streams, &signals, &quirks);
+    let values = samples.iter().map(|at| streams.iter().map(|stream| stream.at(*at)).collect()).collect();
+    Seen { due, values }
+}
+
+/// The commands as the devices take them: over their links, when their task runs next.
+fn taken(script: &[Command], quirks: &[Quirk], around: &Surroundings, end: f64, dice: &mut Dice) -> Vec<Command> {
+    let mut all = Vec::new();
+    for (name, kind) in COMMANDS {
+        let (device, port) = name.split_once('.').unwrap_or_default();
+        let mut stream = Stream::new(true);
+        stream.push(0.0, 0.0);
+        script
+            .iter()
+            .filter(|command| command.signal == name)
+            .for_each(|command| stream.push(command.at, command.value));
+        let of_device = Quirks::of(quirks, device);
+        let mut name = name.to_owned();
+        for quirk in of_device.at("command-link", port) {
+            stream = stream.through(quirk, kind == Kind::Flag, dice, end);
+        }
+        for quirk in quirks.iter().filter(|q| q.device == device && q.effect == "swapped" && q.place == "command-link")
+        {
+            let (one, two) =
+                (quirk.component.as_deref().unwrap_or_default(), quirk.with.as_deref().unwrap_or_default());
+            let other = if port == one {
+                two
+            } else if port == two {
+                one
+            } else {
+                port
+            };
+            name = format!("{device}.{other}");
+        }
+        let value = |value: f64| if kind == Kind::Code { value.round() } else { value };
+        let on_task = |at: f64| match around.task {
+            task if task > 0.0 && at > 0.0 => ((at - around.task_phase) / task).ceil() * task + around.task_phase,
+            _ => at,
+        };
+        let points = stream.points().iter();
+        all.extend(points.map(|(at, to)| Command { at: on_task(*at), signal: name.clone(), value: value(*to) }));
+    }
+    all.sort_by(|a, b| a.at.total_cmp(&b.at));
+    all
+}
+
+/// What stands between a signal's sensor and its report.
+fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item = &'a Quirk> {
+    let (device, port) = signal.parts();
+    let of_device = Quirks::of(quirks, device);
+    // A sensor's effect names its signal, a link's may mean all of them.
+    let sensor = of_device.at("sensor", port).filter(|quirk| quirk.component.is_some());
+    sensor.chain(of_device.at("report-link", port))
+}
+
+fn reported(
+    mut stream: Stream,
+    signal: &Signal,
+    quirks: &[Quirk],
+    around: &Surroundings,
+    end: f64,
+    dice: &mut Dice,
+) -> Stream {
+    let is_flag = signal.kind == Kind::Flag;
+    for quirk in passes(quirks, signal) {
+        let mut quirk = quirk.clone();
+        if quirk.effect == "lost-messages" {
+            quirk.parameters.push(("cycle".to_owned(), around.cycle));
+        }
+        stream = stream.through(&quirk, is_flag, dice, end);
+    }
+    if is_flag && around.filter > 0.0 {
+        let filter = Quirk {
+            effect: "input-filter".to_owned(),
+            parameters: vec![("time_constant".to_owned(), around.filter)],
+            device: String::new(),
+            component: None,
+            place: String::new(),
+            with: None,
+        };
+        stream = stream.through(&filter, true, dice, end);
+    }
+    stream
+}
+
+fn swap(streams: &mut [Stream], signals: &[Signal], quirks: &[Quirk]) {
+    for quirk in quirks.iter().filter(|quirk| quirk.effect == "swapped" && quirk.place == "report-link") {
+        let place = |port: &Option<String>| {
+            let name = format!("{}.{}", quirk.device, port.as_deref().unwrap_or_default());
+            signals.iter().position(|signal| signal.name == name)
+        };
+        if let (Some(one), Some(two)) = (place(&quirk.component), place(&quirk.with)) {
+            streams.swap(one, two);
+        }
+    }
+}
+
+/// Writes what was seen of `signals` under `script` as a trace of the plant called `model`.
+pub fn write<W: Write>(
+    out: W,
+    model: &str,
+    script: &[Command],
+    seen: &Seen,
+    signals: &[Signal],
+    around: &Surroundings,
+    seed: u64,
+) -> io::Result<W> {
+    let mut said = commands(script);
+    said.extend(reports(seen, signals, around, seed));
+    // Stable: the automation's first.
+    said.sort_by(|a, b| a.at.total_cmp(&b.at));
+    let header = Header { source: Source::Plant, model: Some(model.to_owned()), ..Header::default() };
+    let mut writer = Writer::new(out, Compression::Zstd, &header)?;
+    for Said { at, from, text } in said {
+        writer.message(Instant::from_seconds(at), from, &text)?;
+    }
+    writer.finish()
+}
+
+/// The automation's messages: the first sets everything to 0.
+fn commands(script: &[Command]) -> Vec<Said> {
+    let mut text = SendValueText::with_capacity(COMMANDS.len());
+    for (name, kind) in COMMANDS {
+        let _ = text.push(name, &value(kind, 0.0));
+    }
+    let mut said = vec![Said { at: 0.0, from: Sender::Automation, text: text.finish().unwrap_or_default() }];
+    for together in script.chunk_by(|one, next| one.at == next.at) {
+        let mut text = SendValueText::with_capacity(together.len());
+        for command in together {
+            let kind = COMMANDS.iter().find(|(name, _)| *name == command.signal).map_or(Kind::Level, |(_, kind)| *kind);
+            let _ = text.push(&command.signal, &value(kind, command.value));
+        }
+        let text = text.finish().unwrap_or_default();
+        said.push(Said { at: together[0].at, from: Sender::Automation, text });
+    }
+    said
+}
+
+/// The plant's messages: the first holds everything, each further one what has changed.
+fn reports(seen: &Seen, signals: &[Signal], around: &Surroundings, seed: u64) -> Vec<Said> {
+    let mut dice = Dice::new(seed, 22);
+    let keep = (-around.cycle / around.noise_time.max(1e-9)).exp();
+    let fresh = (1.0 - keep * keep).sqrt();
+    let mut noise: Vec<f64> = signals.iter().map(|_| dice.normal()).collect();
+    let mut last: Vec<Option<Value>> = vec![None; signals.len()];
+    let mut said = Vec::new();
+    for (due, values) in seen.due.iter().zip(&seen.values) {
+        let mut text = SendValueText::with_capacity(8);
+        for (at, signal) in signals.iter().enumerate() {
+            noise[at] = keep * noise[at] + fresh * dice.normal();
+            let read = values[at] + around.noise * signal.sigma * noise[at];
+            let rounded =
+                if signal.kind == Kind::Level { (read / signal.quantum).round() * signal.quantum } else { read };
+            let now = Some(value(signal.kind, rounded));
+            if now != last[at]
+                && let Some(value) = &now
+            {
+                let _ = text.push(&signal.name, value);
+                last[at] = now;
+            }
+        }
+        let late = (around.jitter * dice.normal()).abs().min(0.4 * around.cycle);
+        if let Some(text) = text.finish() {
+            said.push(Said { at: due + late, from: Sender::Plant, text });
+        }
+    }
+    said
+}
+
+fn value(kind: Kind, number: f64) -> Value {
+    match kind {
+        Kind::Flag => Value::Bool(number != 0.0),
+        Kind::Code | Kind::Count => Value::Dint(number as i32),
+        // Rounding to a grid and to REAL: the shortest text of the REAL is what is written.
+        Kind::Level => Value::Real(number as f32 + 0.0),
+    }
+}
+
+/// The script as the plant hears it: every message through the wire and back, so that no number is finer than what
+/// travels.
+pub fn heard(script: &[Command]) -> Vec<Command> {
+    let mut heard = Vec::new();
+    for said in commands(script).into_iter().skip(1) {
+        let Ok(Message::SendValue(entries)) = Message::decode(&said.text) else { continue };
+        for entry in entries {
+            let (Some(name), Some(raw)) = (entry.name, entry.value) else { continue };
+            let number = raw.as_bool().map(f64::from).or_else(|| raw.as_number()?.parse::<f32>().ok().map(f64::from));
+            if let Some(value) = number {
+                // The recorder stamps to the nanosecond.
+                let at = Instant::from_seconds(said.at).seconds();
+                heard.push(Command { at, signal: name.into_owned(), value });
+            }
+        }
+    }
+    heard
+}

@@ -1,0 +1,155 @@
+//! The rig: one of each, none touching another, as the table of the devices has it.
+
+use crate::belt::{Belt, BeltParameters};
+use crate::chance::Dice;
+use crate::gripper::{Gripper, GripperParameters};
+use crate::motor::{Motor, MotorParameters};
+use crate::plant::{Device, Kind, Plant, Signal};
+use crate::pusher::{Pusher, PusherParameters};
+use crate::quirk::Quirk;
+use crate::robot::{Robot, RobotParameters};
+use crate::servo::{Servo, ServoParameters};
+
+/// What the rig is built to.
+#[derive(Clone, Debug)]
+pub struct RigParameters {
+    pub belt: BeltParameters,
+    pub pusher: PusherParameters,
+    pub robot: RobotParameters,
+    pub gripper: GripperParameters,
+    pub servo: ServoParameters,
+    pub motor: MotorParameters,
+}
+
+impl RigParameters {
+    /// As the table has it.
+    pub fn nominal() -> RigParameters {
+        RigParameters {
+            belt: BeltParameters {
+                length: 2.0,
+                acceleration: 1.0,
+                barriers: [0.3, 1.7],
+                box_length: 0.3,
+                box_at: 0.15,
+                first: 1.0,
+                interval: 6.0,
+            },
+            pusher: PusherParameters { stroke: 0.5, extend_speed: 0.5, retract_speed: 0.5, limit_tolerance: 0.002 },
+            robot: RobotParameters {
+                fastest: [1.0, 1.0, 1.0, 2.0],
+                steepest: [2.0, 2.0, 2.0, 8.0],
+                tolerance: [5e-4; 4],
+            },
+            gripper: GripperParameters { build_up: 0.15, release: 0.08 },
+            servo: ServoParameters {
+                mass: 20.0,
+                viscous: 50.0,
+                position_gain: 25.0,
+                velocity_gain: 800.0,
+                force_limit: 500.0,
+            },
+            motor: MotorParameters { acceleration: 20.0, counts: 4096.0 },
+        }
+    }
+
+    /// As one is built: every measure anywhere within its `tolerance`, a share of itself. What is counted or scheduled
+    /// (an encoder's lines, the instants of the boxes) is exact.
+    pub fn built(tolerance: f64, dice: &mut Dice) -> RigParameters {
+        let mut built = RigParameters::nominal();
+        let RigParameters { belt, pusher, robot, gripper, servo, motor } = &mut built;
+        let mut measures = vec![&mut belt.acceleration, &mut belt.box_length];
+        measures.extend(&mut belt.barriers);
+        measures.extend([&mut pusher.stroke, &mut pusher.extend_speed, &mut pusher.retract_speed]);
+        measures.push(&mut pusher.limit_tolerance);
+        measures.extend(robot.fastest.iter_mut().chain(&mut robot.steepest).chain(&mut robot.tolerance));
+        measures.extend([&mut gripper.build_up, &mut gripper.release, &mut motor.acceleration]);
+        measures.extend([&mut servo.mass, &mut servo.viscous, &mut servo.position_gain]);
+        measures.extend([&mut servo.velocity_gain, &mut servo.force_limit]);
+        for measure in measures {
+            *measure *= 1.0 + dice.between(-tolerance, tolerance);
+        }
+        built
+    }
+
+    /// The plant with `quirks`; `seed` is that of what befalls its boxes.
+    pub fn plant(&self, quirks: &[Quirk], seed: u64) -> Plant {
+        let RigParameters { belt, pusher, robot, gripper, servo, motor } = self;
+        let devices: [(&str, Box<dyn Device>); 6] = [
+            ("Belt", Box::new(Belt::new(belt, quirks, "Belt", "Feed", seed))),
+            ("Pusher", Box::new(Pusher::new(pusher, quirks, "Pusher"))),
+            ("Robot", Box::new(Robot::new(robot, quirks, "Robot"))),
+            ("Gripper", Box::new(Gripper::new(gripper, quirks, "Gripper"))),
+            ("Axis", Box::new(Servo::new(servo, quirks, "Axis"))),
+            ("Motor", Box::new(Motor::new(motor, quirks, "Motor"))),
+        ];
+        let devices = devices.into_iter().map(|(name, device)| (name.to_owned(), device)).collect();
+        Plant { devices, signals: signals(), quirks: quirks.to_vec() }
+    }
+}
+
+/// All commands, in the order of the first message.
+pub const COMMANDS: [(&str, Kind); 13] = [
+    ("Belt.velocityTarget", Kind::Level),
+    ("Belt.motorDirection", Kind::Code),
+    ("Pusher.command", Kind::Code),
+    ("Robot.XTarget", Kind::Level),
+    ("Robot.YTarget", Kind::Level),
+    ("Robot.ZTarget", Kind::Level),
+    ("Robot.RTarget", Kind::Level),
+    ("Robot.grip", Kind::Flag),
+    ("Gripper.suctionOn", Kind::Flag),
+    ("Gripper.blowOn", Kind::Flag),
+    ("Axis.positionTarget", Kind::Level),
+    ("Motor.speedTarget", Kind::Level),
+    ("Motor.enable", Kind::Flag),
+];
+
+/// All reports, in the order in which the devices read them.
+pub fn signals() -> Vec<Signal> {
+    let signal = |name: &str, kind, quantum, sigma| Signal { name: name.to_owned(), kind, quantum, sigma };
+    let flag = |name: &str| signal(name, Kind::Flag, 0.0, 0.0);
+    let level = |name: &str, quantum, sigma| signal(name, Kind::Level, quantum, sigma);
+    let mut all = vec![
+        level("Belt.velocityActual", 1e-3, 1e-3),
+        flag("Belt.driveEnabled"),
+        flag("Belt.driveRunning"),
+        signal("Belt.directionalActual", Kind::Code, 0.0, 0.0),
+    ];
+    all.extend(["Belt.lightBarrierA", "Belt.lightBarrierB"].map(flag));
+    all.extend(["limitExtended", "limitRetracted", "isRunning"].map(|port| flag(&format!("Pusher.{port}"))));
+    all.extend(["Pusher.lightbarrierA", "Pusher.lightbarrierB", "Robot.cartesianArrived"].map(flag));
+    all.extend(["X", "Y", "Z"].map(|axis| level(&format!("Robot.actualPos{axis}"), 5e-5, 2.5e-5)));
+    all.extend([level("Robot.actualPosR", 5e-5, 3.5e-5), flag("Gripper.vacuumOn")]);
+    all.extend([level("Axis.position", 1e-5, 1.5e-5), level("Axis.velocity", 1e-3, 1.5e-3)]);
+    all.extend([level("Axis.force", 0.5, 1.5), signal("Motor.encoder", Kind::Count, 1.0, 0.0)]);
+    all.extend([level("Motor.speedActual", 1e-2, 3e-2), flag("Motor.inverterReady")]);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_read_as_many_values_as_there_are_signals() {
+        let plant = RigParameters::nominal().plant(&[], 1);
+        let mut values = Vec::new();
+        plant.devices.iter().for_each(|(_, device)| device.read(0.0, &mut values));
+        assert_eq!(values.len(), plant.signals.len());
+        let at_start: Vec<&str> = plant
+            .signals
+            .iter()
+            .zip(&values)
+            .filter(|(_, value)| **value != 0.0)
+            .map(|(s, _)| s.name.as_str())
+            .collect();
+        assert_eq!(at_start, ["Pusher.limitRetracted", "Robot.cartesianArrived"]);
+    }
+
+    #[test]
+    fn a_built_rig_keeps_to_its_tolerance_and_is_no_other_twice() {
+        let [one, two] = [1, 2].map(|seed| RigParameters::built(0.01, &mut Dice::new(seed, 0)));
+        assert!((one.servo.mass / 20.0 - 1.0).abs() <= 0.01 && one.servo.mass != two.servo.mass);
+        assert_eq!(one.motor.counts, 4096.0);
+    }
+}
