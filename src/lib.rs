@@ -9,6 +9,7 @@ pub mod cli;
 pub mod device;
 pub mod effect;
 pub mod engine;
+pub mod exam;
 pub mod gap;
 pub mod kinematics;
 pub mod pace;

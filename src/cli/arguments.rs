@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::apply::ApplyArguments;
 use super::diagnose::DiagnoseArguments;
+use super::exam::ExamArguments;
 use super::experiment::ExperimentArguments;
 use super::locate::LocateArguments;
 use super::table::{ExportArguments, ImportArguments};
@@ -67,6 +68,7 @@ pub enum GapCommand {
     Locate(LocateArguments),
     Diagnose(DiagnoseArguments),
     Plan(ExperimentArguments),
+    Exam(ExamArguments),
 }
 
 #[derive(Debug, Subcommand)]

@@ -7,6 +7,7 @@ mod apply;
 mod arguments;
 mod check;
 mod diagnose;
+mod exam;
 mod experiment;
 mod info;
 mod locate;
@@ -60,6 +61,7 @@ pub fn main() -> ExitCode {
         Some(Command::Gap { command: GapCommand::Locate(arguments) }) => locate::run(&arguments),
         Some(Command::Gap { command: GapCommand::Diagnose(arguments) }) => diagnose::run(&arguments),
         Some(Command::Gap { command: GapCommand::Plan(arguments) }) => experiment::run(&arguments),
+        Some(Command::Gap { command: GapCommand::Exam(arguments) }) => exam::run(&arguments),
         Some(Command::Trace { command: TraceCommand::Cut(arguments) }) => replay::cut(&arguments),
         Some(Command::Trace { command: TraceCommand::Import(arguments) }) => table::import(&arguments),
         Some(Command::Trace { command: TraceCommand::Export(arguments) }) => table::export(&arguments),

@@ -37,6 +37,7 @@ pub use ask::{Asked, ask};
 pub use notice::{Gravity, Notice};
 pub use observe::observe;
 pub use options::{Connect, Options, RecordTo, Speed};
+pub use recording::date_and_time;
 pub use stepped::Stepper;
 pub use summary::{Quantiles, Summary};
 

@@ -152,7 +152,7 @@ impl Journal for Chronicle {
 }
 
 /// Seconds since 1970 as ISO 8601 writes a date and a time of day in UTC.
-fn date_and_time(seconds: u64) -> String {
+pub fn date_and_time(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400, seconds % 86_400);
     // Days since 0000-03-01, so that a leap day is the last of its year; in eras of 400 years, which are all alike
     // (Howard Hinnant, "chrono-compatible low-level date algorithms", civil_from_days).

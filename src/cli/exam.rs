@@ -1,0 +1,263 @@
+//! `kinetwin gap exam`: how often the diagnosis is right about machines whose effect it does not know.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::Mutex;
+use std::time::{Duration, Instant, SystemTime};
+
+use clap::Args;
+
+use super::output::write_whole;
+use super::{Answer, Failure, words};
+use crate::exam::{self, Exam, Judged};
+use crate::gap::report::Report;
+use crate::run::date_and_time;
+
+/// Diagnoses every case of an exam, then opens the sealed answers and scores.
+///
+/// Each case is diagnosed by a process of its own that is told nothing but the case's model and traces. When all have answered,
+/// the hashes of all reports are written down, the answers are opened against them, and exam.json and exam.html are written.
+/// From then on no report can change: the same command scores the same reports again.
+#[derive(Debug, Args)]
+#[command(after_long_help = HELP)]
+pub struct ExamArguments {
+    /// The exam's folder, as withheld-plant writes it
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// The folder for the reports, exam.json and exam.html [default: DIR-reports]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How many cases are diagnosed at a time
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub jobs: usize,
+    /// Keeps the reports that an interrupted exam has written
+    #[arg(long)]
+    pub resume: bool,
+    /// A case that takes longer has no verdict
+    #[arg(long, value_name = "TIME", value_parser = crate::time::parse_duration)]
+    pub timeout: Option<Duration>,
+    /// The key of the answers [default: DIR.key]
+    #[arg(long, value_name = "FILE")]
+    pub key: Option<PathBuf>,
+    /// Prints the rates as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const HELP: &str = "\
+Examples:
+  withheld-plant cases short --exam short
+  kinetwin gap exam short --jobs 2
+  kinetwin gap exam short --jobs 2 --resume
+
+Exit codes:
+  0  every case was judged
+  1  some cases have no verdict; each is named
+  2  bad input or use";
+
+/// What stands in the place of a report where there is none.
+const FAILED: &str = "failed.txt";
+const REPORT: &str = "report.json";
+const SECONDS: &str = "seconds.txt";
+
+/// Does what was asked.
+pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
+    let out = arguments.out.clone().unwrap_or_else(|| {
+        let mut name = arguments.folder.file_name().unwrap_or_default().to_owned();
+        name.push("-reports");
+        arguments.folder.with_file_name(name)
+    });
+    let cases = sealed_answers::cases(&arguments.folder).map_err(|error| Failure::of(&error))?;
+    if cases.is_empty() {
+        let folder = arguments.folder.display();
+        return Err(Failure(format!("error: {folder} holds no case: expected DIR/case-NNN/model and its traces")));
+    }
+    let is_closed = out.join(sealed_answers::MANIFEST).exists();
+    if out.exists() && !arguments.resume {
+        let out = out.display();
+        return Err(Failure(format!("error: {out} exists: continue that exam with --resume, or name another --out")));
+    }
+    if !is_closed {
+        diagnose_all(arguments, &out, &cases)?;
+        let files: Vec<String> = cases.iter().map(|case| format!("{case}/{}", answered(&out.join(case)))).collect();
+        let manifest = sealed_answers::Manifest::of(&out, &files).map_err(|error| Failure::of(&error))?;
+        manifest.write(&out).map_err(|error| Failure::of(&error))?;
+    }
+    let key = arguments.key.clone().unwrap_or_else(|| sealed_answers::default_key(&arguments.folder));
+    let answers = sealed_answers::open(&arguments.folder, &key, &out).map_err(|error| Failure::of(&error))?;
+    let (seed, answers) = exam::read_answers(&answers).map_err(|error| Failure::of(&error))?;
+    let (judged, failed) = score(&out, &cases, &answers);
+    let exam = Exam::new(seed, today(), judged, failed);
+    tell(arguments, &out, &exam)?;
+    Ok(if exam.failed.is_empty() { Answer::Yes } else { Answer::No })
+}
+
+/// The file that a case was answered with.
+fn answered(folder: &Path) -> &'static str {
+    if folder.join(REPORT).exists() && !folder.join(FAILED).exists() { REPORT } else { FAILED }
+}
+
+/// A report that needs no further diagnosis.
+fn is_done(folder: &Path) -> bool {
+    read(folder).is_ok_and(|report| !report.incomplete) && !folder.join(FAILED).exists()
+}
+
+fn diagnose_all(arguments: &ExamArguments, out: &Path, cases: &[String]) -> Result<(), Failure> {
+    let left: Vec<&String> = cases.iter().filter(|case| !is_done(&out.join(case))).collect();
+    let next = Mutex::new(left.iter());
+    let jobs = arguments.jobs.max(1);
+    let worker = || -> Result<(), Failure> {
+        loop {
+            let Some(case) = next.lock().ok().and_then(|mut left| left.next().copied()) else { return Ok(()) };
+            diagnose(arguments, &arguments.folder.join(case), &out.join(case), jobs)?;
+            words::tell(format!("{case}: {}", answered(&out.join(case))));
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..jobs).map(|_| scope.spawn(worker)).collect();
+        let mut ends = workers.into_iter().map(|worker| worker.join());
+        ends.try_for_each(|end| end.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })
+}
+
+/// Diagnoses one case in a process of its own. What keeps it from a verdict is written in the place of a report.
+fn diagnose(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) -> Result<(), Failure> {
+    std::fs::create_dir_all(out)?;
+    for old in [FAILED, REPORT] {
+        if out.join(old).exists() {
+            std::fs::remove_file(out.join(old))?;
+        }
+    }
+    let started = Instant::now();
+    let end = diagnosed(arguments, case, out, jobs);
+    std::fs::write(out.join(SECONDS), format!("{:.3}\n", started.elapsed().as_secs_f64()))?;
+    let why = match end.and_then(|()| read(out)) {
+        Ok(report) if !report.incomplete => return Ok(()),
+        Ok(_) => "it was interrupted".to_owned(),
+        Err(why) => why,
+    };
+    Ok(std::fs::write(out.join(FAILED), format!("{why}\n"))?)
+}
+
+fn diagnosed(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) -> Result<(), String> {
+    let model = std::fs::read_to_string(case.join("model")).map_err(|error| format!("its model: {error}"))?;
+    let model = model.trim();
+    let beside = case.join(model);
+    let model = if beside.exists() { beside } else { PathBuf::from(model) };
+    let trace = |name: &str| {
+        let compressed = case.join(format!("{name}.cps.jsonl.zst"));
+        if compressed.exists() { compressed } else { case.join(format!("{name}.cps.jsonl")) }
+    };
+    let program = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut child = Command::new(program)
+        .args(["gap", "diagnose", "--model"])
+        .arg(model)
+        .arg("--train")
+        .arg(trace("train"))
+        .arg("--holdout")
+        .arg(trace("holdout"))
+        .arg("--out")
+        .arg(out)
+        .env("RAYON_NUM_THREADS", (cores / jobs).max(1).to_string())
+        .stdout(Stdio::null())
+        .stderr(std::fs::File::create(out.join("log.txt")).map_err(|error| format!("its log: {error}"))?)
+        .spawn()
+        .map_err(|error| format!("it did not start: {error}"))?;
+    let started = Instant::now();
+    loop {
+        if let Some(status) = child.try_wait().map_err(|error| format!("it was lost: {error}"))? {
+            let log = std::fs::read_to_string(out.join("log.txt")).unwrap_or_default();
+            return if status.success() { Ok(()) } else { Err(format!("it ended with {status}: {}", log.trim())) };
+        }
+        if arguments.timeout.is_some_and(|timeout| started.elapsed() > timeout) {
+            let _ = child.kill();
+            let _ = child.wait();
+            return Err(format!("it took longer than {:.0} s", started.elapsed().as_secs_f64()));
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// The report of a case, if it keeps to the contract.
+fn read(folder: &Path) -> Result<Report, String> {
+    let path = folder.join(REPORT);
+    let text = std::fs::read_to_string(&path).map_err(|error| format!("no report: {error}"))?;
+    let report = Report::from_json(&path, &text).map_err(|error| error.to_string())?;
+    match report.flaws().first() {
+        None => Ok(report),
+        Some(flaw) => Err(format!("its report misses the contract: {flaw}")),
+    }
+}
+
+fn score(out: &Path, cases: &[String], answers: &[exam::Answer]) -> (Vec<Judged>, BTreeMap<String, String>) {
+    let (mut judged, mut failed) = (Vec::new(), BTreeMap::new());
+    for case in cases {
+        let folder = out.join(case);
+        let Some(answer) = answers.iter().find(|answer| answer.case == *case) else {
+            failed.insert(case.clone(), "the sealed answers hold none for it".to_owned());
+            continue;
+        };
+        let seconds = std::fs::read_to_string(folder.join(SECONDS)).ok().and_then(|text| text.trim().parse().ok());
+        let report = match std::fs::read_to_string(folder.join(FAILED)) {
+            Ok(why) => Err(why.trim().to_owned()),
+            Err(_) => read(&folder),
+        };
+        match report {
+            Ok(report) => judged.push(exam::judge(answer, &report, seconds.unwrap_or_default())),
+            Err(why) => drop(failed.insert(case.clone(), why)),
+        }
+    }
+    (judged, failed)
+}
+
+fn tell(arguments: &ExamArguments, out: &Path, exam: &Exam) -> Result<(), Failure> {
+    let put = |name: &str, text: &str| {
+        write_whole(&out.join(name), true, |mut file| {
+            file.write_all(text.as_bytes())?;
+            Ok((file, ()))
+        })
+    };
+    put("exam.json", &serde_json::to_string_pretty(exam)?)?;
+    put("exam.html", &exam::page(exam))?;
+    if arguments.json {
+        return words::answer_line(serde_json::to_string(exam)?);
+    }
+    words::answer(text(exam))
+}
+
+/// The rates in lines.
+fn text(exam: &Exam) -> String {
+    let rates = &exam.rates;
+    let all = [
+        ("device right", &rates.device_right),
+        ("single right", &rates.single_right),
+        ("truth named", &rates.truth_named),
+        ("false alarm", &rates.false_alarm),
+        ("outside right", &rates.outside_right),
+        ("outside sure, wrong", &rates.outside_sure_wrong),
+        ("both of two", &rates.both_of_two),
+        ("interval cover", &rates.interval_cover),
+        ("calibration error", &rates.ece),
+        ("faint sure, wrong", &rates.faint_sure_wrong),
+    ];
+    let percent = |value: f64| format!("{:.1} %", 100.0 * value);
+    let mut text = format!("{:20} {:>8}  {:>17}  {:>5}\n", "rate", "value", "95 %", "cases");
+    for (name, rate) in all {
+        let value = rate.value.map_or("–".to_owned(), percent);
+        let within = rate.ci95.map_or(String::new(), |[low, high]| format!("{} to {}", percent(low), percent(high)));
+        text.push_str(&format!("{name:20} {value:>8}  {within:>17}  {:>5}\n", rate.n));
+    }
+    for (case, why) in &exam.failed {
+        text.push_str(&format!("{case} has no verdict: {why}\n"));
+    }
+    text
+}
+
+/// The calendar's day, in UTC.
+fn today() -> String {
+    let seconds = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    date_and_time(seconds).split('T').next().unwrap_or_default().to_owned()
+}

@@ -1,0 +1,86 @@
+//! The truth about cases, as `withheld-plant` seals it.
+
+use serde::{Deserialize, Serialize};
+
+/// Why opened answers are none.
+#[derive(Debug, thiserror::Error)]
+#[error("the answers cannot be read: {0}: expected what withheld-plant sealed, schema kinetwin-answers/1")]
+pub struct AnswersError(#[from] serde_json::Error);
+
+/// What sort of case one is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sort {
+    /// One effect of the library.
+    Single,
+    /// Nothing is wrong.
+    None,
+    TwoOnOneDevice,
+    OneOnEachOfTwo,
+    /// An effect that no file of the library describes.
+    Outside,
+}
+
+/// How much of it the recording shows: the distance of the machine with and without the effect, in units of the noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Magnitude {
+    None,
+    BelowNoise,
+    Faint,
+    Clear,
+    Gross,
+}
+
+impl Magnitude {
+    /// Whether the targets count it.
+    pub fn counts(self) -> bool {
+        matches!(self, Magnitude::Clear | Magnitude::Gross)
+    }
+
+    /// The word for it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Magnitude::None => "none",
+            Magnitude::BelowNoise => "below-noise",
+            Magnitude::Faint => "faint",
+            Magnitude::Clear => "clear",
+            Magnitude::Gross => "gross",
+        }
+    }
+}
+
+/// One effect that the machine had.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrueEffect {
+    pub device: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub component: Option<String>,
+    /// The library's id; of what it lacks, a name that begins with `x-`.
+    pub effect: String,
+    pub place: String,
+    /// In SI units, by the library's names.
+    pub parameters: Vec<(String, f64)>,
+}
+
+/// The truth about one case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Answer {
+    pub case: String,
+    pub sort: Sort,
+    pub magnitude: Magnitude,
+    pub effects: Vec<TrueEffect>,
+}
+
+/// All of them, with the exam's seed.
+#[derive(Deserialize)]
+struct Answers {
+    seed: u64,
+    cases: Vec<Answer>,
+}
+
+/// Reads opened answers: the exam's seed and each case's truth.
+pub fn read_answers(text: &[u8]) -> Result<(u64, Vec<Answer>), AnswersError> {
+    let Answers { seed, cases } = serde_json::from_slice(text)?;
+    Ok((seed, cases))
+}

@@ -1,0 +1,120 @@
+//! One report beside the truth.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::answer::{Answer, Magnitude, Sort, TrueEffect};
+use crate::gap::report::{Cause, Member, Report, Verdict};
+
+/// What one report got right. What does not apply to a case is absent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judged {
+    pub case: String,
+    pub sort: Sort,
+    pub magnitude: Magnitude,
+    /// The truth in words: `Axis: coulomb-friction`.
+    pub truth: Vec<String>,
+    /// What was answered: the verdict, and its causes in words.
+    pub verdict: String,
+    pub answered: Vec<String>,
+    /// As many devices as have something wrong stand first in the report's `where`, and are those.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device_right: Option<bool>,
+    /// One effect, named alone and surely, or in the class that is named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub single_right: Option<bool>,
+    /// It stands among causes, their classes or the rivals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub truth_named: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub both_right: Option<bool>,
+    /// Of the parameters with a truth: how many lie in their interval, and how many there are.
+    pub covered: [usize; 2],
+    /// The weight of the first cause.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+    /// The members of the class that was named.
+    pub class_size: usize,
+    /// The part of the gap that is gone on the held-out recording.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shrink: Option<f64>,
+    /// The same for the oracle: a fit that was told the effect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub oracle_shrink: Option<f64>,
+    pub seconds: f64,
+}
+
+/// Holds `report` beside `answer`.
+pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
+    let truths = &answer.effects;
+    let is_single = answer.sort == Sort::Single;
+    let is_two = matches!(answer.sort, Sort::TwoOnOneDevice | Sort::OneOnEachOfTwo);
+    let named = |truth: &TrueEffect| report.cause.iter().any(|cause| of_class(cause, truth));
+    let names_something = matches!(report.verdict, Verdict::Effect | Verdict::Ambiguous);
+    let single = || names_something && report.cause.len() == 1 && truths.iter().all(named);
+    let rival = |truth: &TrueEffect| {
+        report.rivals.iter().any(|rival| is_same(truth, &rival.device, rival.component.as_deref(), &rival.effect))
+    };
+    Judged {
+        case: answer.case.clone(),
+        sort: answer.sort,
+        magnitude: answer.magnitude,
+        truth: truths.iter().map(|truth| in_words(&truth.device, truth.component.as_deref(), &truth.effect)).collect(),
+        verdict: report.verdict.name().to_owned(),
+        answered: report.cause.iter().map(|c| in_words(&c.device, c.component.as_deref(), &c.effect)).collect(),
+        device_right: (!truths.is_empty()).then(|| devices_are_right(truths, report)),
+        single_right: is_single.then(single),
+        truth_named: is_single.then(|| truths.iter().all(|truth| named(truth) || rival(truth))),
+        both_right: is_two.then(|| truths.iter().all(named)),
+        covered: if is_single && single() { covered(&truths[0], report) } else { [0, 0] },
+        weight: report.cause.first().map(|cause| cause.weight),
+        class_size: report.cause.first().map_or(0, |cause| cause.class.len()),
+        shrink: report.shrink.ratio.map(|ratio| 1.0 - ratio),
+        oracle_shrink: None,
+        seconds,
+    }
+}
+
+fn in_words(device: &str, component: Option<&str>, effect: &str) -> String {
+    component.map_or_else(|| format!("{device}: {effect}"), |component| format!("{device}.{component}: {effect}"))
+}
+
+fn devices_are_right(truths: &[TrueEffect], report: &Report) -> bool {
+    let wrong: BTreeSet<&str> = truths.iter().map(|truth| truth.device.as_str()).collect();
+    let first: BTreeSet<&str> = report.devices.iter().take(wrong.len()).map(|gap| gap.device.as_str()).collect();
+    wrong == first
+}
+
+fn of_class(cause: &Cause, truth: &TrueEffect) -> bool {
+    let parameter = cause.texts.get("parameter").map(String::as_str);
+    is_same(truth, &cause.device, parameter.or(cause.component.as_deref()), &cause.effect)
+        && at_place(truth, &cause.member())
+        || cause.class.iter().any(|member| {
+            is_same(truth, &member.device, member.component.as_deref(), &member.effect) && at_place(truth, member)
+        })
+}
+
+/// A parameter is wrong wherever the report puts it.
+fn at_place(truth: &TrueEffect, member: &Member) -> bool {
+    truth.effect == "parameter-error" || member.place.name() == truth.place
+}
+
+/// Where one of the two names no part of the device, the device says enough.
+fn is_same(truth: &TrueEffect, device: &str, component: Option<&str>, effect: &str) -> bool {
+    let part = truth.component.as_deref().zip(component).is_none_or(|(one, other)| one == other);
+    truth.device == device && truth.effect == effect && part
+}
+
+/// How many parameters of the effect's own cause have their truth in their interval, and how many have one.
+fn covered(truth: &TrueEffect, report: &Report) -> [usize; 2] {
+    let cause = report.cause.iter().find(|cause| cause.effect == truth.effect && cause.device == truth.device);
+    let mut counts = [0, 0];
+    for parameter in cause.iter().flat_map(|cause| &cause.parameters) {
+        if let Some((_, value)) = truth.parameters.iter().find(|(name, _)| *name == parameter.name) {
+            counts[1] += 1;
+            counts[0] += usize::from((parameter.ci95[0]..=parameter.ci95[1]).contains(value));
+        }
+    }
+    counts
+}

@@ -1,0 +1,17 @@
+//! An exam of the diagnosis: what was answered about cases whose truth was sealed, held beside that truth.
+//!
+//! Cases come from plants that share nothing with the diagnosis (`tools/withheld-plant`). Each is diagnosed by a process of its
+//! own that knows the case's folder alone; the truth is opened when all reports are written, and judged here.
+
+mod answer;
+mod judge;
+mod page;
+mod rates;
+
+#[cfg(test)]
+mod tests;
+
+pub use answer::{Answer, AnswersError, Magnitude, Sort, TrueEffect, read_answers};
+pub use judge::{Judged, judge};
+pub use page::page;
+pub use rates::{Exam, Rate, Rates, wilson};

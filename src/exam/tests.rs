@@ -1,0 +1,126 @@
+use std::collections::BTreeMap;
+
+use super::*;
+use crate::gap::report::{Cause, DeviceGap, FittedParameter, Report, Verdict};
+use crate::plant::EffectPlace;
+
+fn truth(device: &str, effect: &str, place: &str) -> TrueEffect {
+    TrueEffect {
+        device: device.to_owned(),
+        component: None,
+        effect: effect.to_owned(),
+        place: place.to_owned(),
+        parameters: vec![("force".to_owned(), 10.0)],
+    }
+}
+
+fn answer(case: &str, sort: Sort, magnitude: Magnitude, effects: Vec<TrueEffect>) -> Answer {
+    Answer { case: case.to_owned(), sort, magnitude, effects }
+}
+
+fn report(verdict: Verdict, causes: &[(&str, &str, EffectPlace)]) -> Report {
+    let mut report = Report::new(verdict);
+    for (device, effect, place) in causes {
+        let parameter = FittedParameter {
+            name: "force".to_owned(),
+            value: 10.1,
+            unit: "N".to_owned(),
+            ci95: [9.9, 10.3],
+            not_identifiable: false,
+        };
+        let mut cause = Cause {
+            device: (*device).to_owned(),
+            component: None,
+            effect: (*effect).to_owned(),
+            place: *place,
+            weight: 0.9,
+            class: Vec::new(),
+            parameters: vec![parameter],
+            texts: BTreeMap::new(),
+        };
+        cause.class.push(cause.member());
+        report.cause.push(cause);
+        let device = (*device).to_owned();
+        report.devices.push(DeviceGap { device, share: 0.5, signals: Vec::new(), regimes: Vec::new() });
+    }
+    report
+}
+
+#[test]
+fn an_effect_is_right_on_its_device_at_its_place() {
+    let coulomb = answer("1", Sort::Single, Magnitude::Clear, vec![truth("Axis", "coulomb-friction", "mechanics")]);
+    let check = |device: &str, effect: &str, place, device_right: bool, right: bool| {
+        let judged = judge(&coulomb, &report(Verdict::Effect, &[(device, effect, place)]), 1.0);
+        assert_eq!((judged.device_right, judged.single_right), (Some(device_right), Some(right)), "{judged:?}");
+        assert_eq!(judged.covered, if right { [1, 1] } else { [0, 0] });
+    };
+    check("Axis", "coulomb-friction", EffectPlace::Mechanics, true, true);
+    check("Axis", "viscous-friction", EffectPlace::Mechanics, true, false);
+    check("Axis", "coulomb-friction", EffectPlace::Load, true, false);
+    check("Belt", "coulomb-friction", EffectPlace::Mechanics, false, false);
+    // A second cause beside the truth is one too many.
+    let two = [("Axis", "coulomb-friction", EffectPlace::Mechanics), ("Belt", "belt-slip", EffectPlace::Transmission)];
+    assert_eq!(judge(&coulomb, &report(Verdict::Effect, &two), 1.0).single_right, Some(false));
+    assert_eq!(judge(&coulomb, &report(Verdict::NoGap, &[]), 1.0).single_right, Some(false));
+}
+
+#[test]
+fn a_class_that_holds_the_truth_is_right_and_both_of_two_must_be_found() {
+    let late = answer("1", Sort::Single, Magnitude::Gross, vec![truth("Gripper", "dead-time", "report-link")]);
+    let mut ambiguous = report(Verdict::Ambiguous, &[("Gripper", "dead-time", EffectPlace::CommandLink)]);
+    assert_eq!(judge(&late, &ambiguous, 1.0).single_right, Some(false));
+    let mut member = ambiguous.cause[0].member();
+    member.place = EffectPlace::ReportLink;
+    ambiguous.cause[0].class.push(member);
+    assert_eq!(judge(&late, &ambiguous, 1.0).single_right, Some(true));
+
+    let effects = vec![truth("Axis", "backlash", "transmission"), truth("Belt", "belt-slip", "transmission")];
+    let two = answer("2", Sort::OneOnEachOfTwo, Magnitude::Clear, effects);
+    let [one, other] = [("Axis", "backlash"), ("Belt", "belt-slip")].map(|(d, e)| (d, e, EffectPlace::Transmission));
+    assert_eq!(judge(&two, &report(Verdict::Effect, &[other, one]), 1.0).both_right, Some(true));
+    assert_eq!(judge(&two, &report(Verdict::Effect, &[one]), 1.0).both_right, Some(false));
+}
+
+#[test]
+fn wilsons_interval_is_the_one_of_the_books() {
+    // 8 of 10: 0.4902 to 0.9433 (E. B. Wilson's formula, by hand).
+    let [low, high] = wilson(8, 10);
+    assert!((low - 0.4902).abs() < 1e-4 && (high - 0.9433).abs() < 1e-4, "{low} {high}");
+    let [low, high] = wilson(0, 20);
+    assert!(low == 0.0 && (high - 0.1611).abs() < 1e-4, "{high}");
+}
+
+#[test]
+fn rates_count_what_they_are_about() {
+    let none = |case: &str| answer(case, Sort::None, Magnitude::None, Vec::new());
+    let outside = answer("3", Sort::Outside, Magnitude::Clear, vec![truth("Axis", "x-cogs", "mechanics")]);
+    let faint = answer("4", Sort::Single, Magnitude::Faint, vec![truth("Axis", "backlash", "transmission")]);
+    let sure = report(Verdict::Effect, &[("Axis", "coulomb-friction", EffectPlace::Mechanics)]);
+    let judged = vec![
+        judge(&none("1"), &report(Verdict::NoGap, &[]), 1.0),
+        judge(&none("2"), &sure, 3.0),
+        judge(&outside, &report(Verdict::Unknown, &[]), 2.0),
+        judge(&faint, &sure, 2.0),
+    ];
+    let failed = BTreeMap::from([("5".to_owned(), "no report".to_owned())]);
+    let exam = Exam::new(7, "2026-01-31".to_owned(), judged, failed);
+    let Rates { false_alarm, outside_right, outside_sure_wrong, single_right, faint_sure_wrong, .. } = exam.rates;
+    assert_eq!((false_alarm.value, false_alarm.n), (Some(0.5), 2));
+    assert_eq!((outside_right.value, outside_sure_wrong.value), (Some(1.0), Some(0.0)));
+    assert_eq!((single_right.value, faint_sure_wrong.value), (None, Some(1.0)), "faint ones have a rate of their own");
+    assert_eq!((exam.cases, exam.seconds_per_case), (5, Some(2.0)));
+    let html = page(&exam);
+    assert!(
+        html.contains("outside of the library: unknown or partial") && html.contains("5 has no verdict: no report")
+    );
+}
+
+#[test]
+fn sealed_answers_are_read_and_what_is_none_is_said_to_be_none() {
+    let text = br#"{"schema":"kinetwin-answers/1","exam":"short","seed":7,"cases":[{"case":"case-001","model":"models/rig",
+        "sort":"one-on-each-of-two","magnitude":"below-noise","distance":0.5,"effects":[{"device":"Axis","effect":"backlash",
+        "place":"transmission","parameters":[["gap",0.001]]}],"surroundings":{"cycle":0.02}}]}"#;
+    let (seed, answers) = read_answers(text).expect("answers");
+    assert_eq!((seed, answers[0].sort, answers[0].magnitude), (7, Sort::OneOnEachOfTwo, Magnitude::BelowNoise));
+    assert!(read_answers(b"{}").expect_err("none").to_string().contains("expected what withheld-plant sealed"));
+}
