@@ -235,7 +235,7 @@ impl Shape {
                 2.0 * turn * speed * part.min(1.0 - part)
             }
             Shape::Step { size, every } => {
-                if (t / every) as usize % 2 == 0 {
+                if ((t / every) as usize).is_multiple_of(2) {
                     *size
                 } else {
                     0.0
