@@ -48,6 +48,8 @@ pub struct Servo {
     lag: Option<f64>,
     pull: f64,
     friction: Friction,
+    /// What friction opposed with in the last step: without it the first guess of a speed would creep at rest.
+    rubbed: f64,
     drag: f64,
     cogging: Option<(f64, f64)>,
     saturates: f64,
@@ -93,6 +95,7 @@ impl Servo {
             lag: all.value("first-order-lag", "time_constant"),
             pull: all.value("constant-force", "force").unwrap_or(0.0) + all.value("gravity", "force").unwrap_or(0.0),
             friction: Friction::new(all),
+            rubbed: 0.0,
             drag: all.value("x-drags-with-the-square", "coefficient").unwrap_or(0.0),
             cogging: pair("x-cogs", "force", "period"),
             saturates: all.value("x-iron-saturates", "force").unwrap_or(f64::INFINITY),
@@ -129,7 +132,7 @@ impl Servo {
     fn step(&mut self, h: f64, others: usize) {
         self.clock += h;
         // The drive looks once in a step, in its middle: by Heun's rule from a first guess of the speed there.
-        let guess = self.speed + 0.5 * h * self.acceleration(self.asked(), self.speed, others, 0.0);
+        let guess = self.speed + 0.5 * h * self.acceleration(self.asked(), self.speed, others, self.rubbed);
         let (position, speed) = (self.position, self.speed);
         (self.position, self.speed) = (position + 0.25 * h * (speed + guess), guess);
         let asked = self.asked();
@@ -142,6 +145,7 @@ impl Servo {
             None => asked,
         };
         let rubs = self.friction.step(h, guess, self.position, self.exerted(asked, others), &mut self.heat);
+        self.rubbed = rubs;
         let a = self.acceleration(asked, guess, others, rubs);
         let (old, new) = (self.speed, self.speed + h * a);
         self.position += 0.5 * h * (old + new);
