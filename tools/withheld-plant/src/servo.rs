@@ -308,9 +308,13 @@ mod tests {
     #[test]
     fn dry_friction_leaves_an_error_within_its_band() {
         let rubs = [quirk("A", "coulomb-friction", &[("force", 10.0)])];
-        // 20 kN/m · 0.4 mm are 8 N: the bristles bend and hold.
+        // 20 kN/m · 0.4 mm are 8 N: the bristles bend and hold. Bent monotonously by F the axis has gone -BEND·ln(1 - F/Fc); the
+        // step overshoots its 8 N, to 95 % of what slides at most.
         let [x, v, force] = after(&rubs, 4e-4, 2.0);
-        assert!(x > 0.0 && x < 5e-6 && v.abs() < 1e-5 && (force - 8.0).abs() < 0.2, "{x} {v} {force}");
+        assert!(
+            x > 0.0 && x < -BEND * (1.0_f64 - 0.95).ln() && v.abs() < 1e-5 && (force - 8.0).abs() < 0.2,
+            "{x} {v} {force}"
+        );
         let [x, v, force] = after(&rubs, 0.01, 2.0);
         assert!(
             v.abs() < 1e-5 && force.abs() <= 10.01 && (x - 0.01 + force / 20_000.0).abs() < 1e-5,
