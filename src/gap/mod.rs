@@ -72,7 +72,7 @@ pub use mask::{MaskError, read_mask};
 pub use overrides::Overrides;
 pub use parts::Origin;
 pub use prediction::{Passing, Predicted, PredictedEdge, Prediction};
-pub use recording::{Beat, Recording, RecordingError, Span, Stamped, TaskId};
+pub use recording::{Beat, OtherClock, Recording, RecordingError, Span, Stamped, TaskId};
 pub use restarts::WINDOW_S;
 pub use score::{EdgeScore, LevelScore, Score, SignalScore};
 pub use silence::segments;
