@@ -70,6 +70,12 @@ impl Ladder {
     }
 }
 
+/// What it takes to fit so many parameters from where they nearly are: a dozen steps downhill, each with as many differences.
+fn anew(free: usize) -> Effort {
+    const STEPS: u32 = 20;
+    Effort { starts: 1, budget: (STEPS * (free as u32 + 1)).max(60) }
+}
+
 /// Climbs. `is_asked` says which effects are looked for.
 pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> Option<Ladder> {
     let start = bench.nominal(&[]);
@@ -77,7 +83,7 @@ pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: 
         true => bench.trial(&[], start)?,
         // Where the answer is wanted before anything is fitted, the nominal parameters stand.
         false => {
-            let fitted = bench.fit(&[], std::slice::from_ref(&start), Effort { starts: 1, budget: 60 });
+            let fitted = bench.fit(&[], std::slice::from_ref(&start), anew(start.len()));
             fitted.or_else(|| bench.trial(&[], start))?
         }
     };
@@ -246,7 +252,7 @@ fn beside(bench: &Bench<'_>, below: &Trial, candidate: &Candidate, excess: f64) 
         best = (glance.cost, glance.at);
         let is_promising = below.cost - best.0 > PROMISING * excess;
         if is_promising && bench.is_rugged() {
-            return bench.fit(&set, &[all(&best.1)], Effort { starts: 1, budget: 60 });
+            return bench.fit(&set, &[all(&best.1)], anew(bench.ranges(&set).len()));
         }
         if is_promising {
             let starts: Vec<Vec<f64>> = std::iter::once(best.1.clone())
@@ -308,7 +314,7 @@ fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: bool)
     let mut is_fitted = bench.is_rugged() || (is_first && bench.nuisances.is_empty());
     for _ in 0..ROUNDS {
         if !is_fitted {
-            let effort = Effort { starts: 1, budget: 60 };
+            let effort = anew(trial.at.len());
             let fitted = bench.with(&subject).fit(&trial.set, std::slice::from_ref(&trial.at), effort);
             trial = fitted.unwrap_or(trial);
         }
@@ -326,17 +332,16 @@ fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: bool)
 fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
     const MOST: usize = 12;
     let weighed = bench.with(&ladder.subject);
-    let effort = Effort { starts: 1, budget: 60 };
-    let anew = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
+    let fitted = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
         let there = weighed.trial(&trial.set, trial.at.clone())?;
         if rank >= MOST || there.cost == trial.cost {
             return Some(there);
         }
-        weighed.fit(&trial.set, std::slice::from_ref(&trial.at), effort).or(Some(there))
+        weighed.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len())).or(Some(there))
     });
-    let mut anew: Vec<Trial> = anew.collect();
-    anew.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    ladder.singles = anew;
+    let mut fitted: Vec<Trial> = fitted.collect();
+    fitted.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    ladder.singles = fitted;
 }
 
 /// What a candidate beside `below` others has to gain over one with one parameter that is an effect.
@@ -389,7 +394,7 @@ fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) {
         let mut at = best.at[..best.parameters()].to_vec();
         at.drain(before..before + dropped.free.len());
         at.extend(bench.nominal(&set));
-        let without = weighed.fit(&set, &[at], Effort { starts: 1, budget: 60 });
+        let without = weighed.fit(&set, &[at], anew(weighed.ranges(&set).len()));
         match without {
             Some(without) if !is_worth_having(&weighed, &without, best, ladder) => ladder.best = without,
             _ => place += 1,
