@@ -17,6 +17,7 @@ pub mod plant;
 pub mod prototype;
 pub mod replay;
 pub mod run;
+pub mod scene;
 pub mod session;
 pub mod signal_map;
 pub mod time;

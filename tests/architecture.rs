@@ -21,6 +21,8 @@ const ROWS: &[(&str, f64)] = &[
     ("kinematics", 2.0),
     ("plant", 2.0),
     ("session", 2.0),
+    // The plant's shape: made of plants and poses.
+    ("scene", 2.5),
     ("device", 3.0),
     ("effect", 3.5),
     ("engine", 4.0),

@@ -159,6 +159,14 @@ impl Device for CartesianRobot {
         }
     }
 
+    fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
+        let [x, y, z] = self.tool.position;
+        visit("X.T", x);
+        visit("Y.T", y);
+        visit("Z.T", z);
+        visit("R.R", self.tool.rotation);
+    }
+
     fn role(&self) -> Role<'_> {
         Role::Moves(&self.tool)
     }

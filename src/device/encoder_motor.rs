@@ -120,6 +120,10 @@ impl Device for EncoderMotor {
     fn share(&mut self, others: u32) {
         self.drive.shared(others);
     }
+
+    fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
+        visit("Shaft.R", self.drive.load().position);
+    }
 }
 
 #[cfg(test)]

@@ -149,6 +149,10 @@ pub trait Device: Send {
         false
     }
 
+    /// Gives the joints of its shape to `visit`, always in the same order: the joint's name within the instance
+    /// (`Spintore.T`), and its value, m or rad.
+    fn joints(&self, _visit: &mut dyn FnMut(&'static str, f64)) {}
+
     /// What it is to the parts.
     fn role(&self) -> Role<'_> {
         Role::Apart

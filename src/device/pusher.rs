@@ -150,6 +150,10 @@ impl Device for Pusher {
         self.cylinder.shared(others);
     }
 
+    fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
+        visit("Spintore.T", self.plate.position);
+    }
+
     fn role(&self) -> Role<'_> {
         Role::Pushes(&self.plate)
     }

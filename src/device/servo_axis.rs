@@ -501,6 +501,17 @@ impl Device for ServoAxis {
     fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {
         Some(&mut self.stages)
     }
+
+    fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
+        let position = match (self.stages.is_nominal(), self.mode) {
+            (false, _) => self.load.position,
+            (true, Mode::Ideal) => self.position_target.value(),
+            (true, _) => self.servo.position(),
+        };
+        // Its shape has the one or the other, by its motion.
+        visit("Slide.T", position);
+        visit("Shaft.R", position);
+    }
 }
 
 #[cfg(test)]

@@ -195,6 +195,10 @@ impl Device for Affected {
         self.inner.moving()
     }
 
+    fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
+        self.inner.joints(visit);
+    }
+
     fn shift(&mut self, by: Motion) -> bool {
         let is_shifted = self.inner.shift(by);
         self.see_reports();

@@ -115,6 +115,7 @@ impl Engine {
             mounts,
             frames,
             floor,
+            stage: None,
             scratch: vec![0.0; room],
         };
         engine.frames.resolve();

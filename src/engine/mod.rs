@@ -15,6 +15,9 @@ mod build;
 mod effect_tests;
 mod floor;
 mod hash;
+mod stage;
+#[cfg(test)]
+mod stage_tests;
 #[cfg(test)]
 mod tests;
 mod ties;
@@ -32,6 +35,7 @@ use crate::time::Instant;
 use crate::value::Value;
 use binding::{CommandTable, ReportPort};
 use floor::Floor;
+use stage::Stage;
 use ties::Ties;
 
 /// A plant that runs.
@@ -46,6 +50,7 @@ pub struct Engine {
     mounts: Vec<Mount>,
     frames: FrameTree,
     floor: Floor,
+    stage: Option<Stage>,
     /// Room for one device's reports.
     scratch: Vec<f64>,
 }
@@ -249,6 +254,9 @@ impl Engine {
             if let UnitBody::Cups(index, frame) = unit.body {
                 self.floor.cups[index].rim = *self.frames.world(frame);
             }
+        }
+        if let Some(stage) = &mut self.stage {
+            stage.follow(&self.units);
         }
     }
 

@@ -1,5 +1,7 @@
 //! One instance: what is set about it is worked out, its tasks get their parameters, its signals their registers.
 
+use std::collections::BTreeMap;
+
 use super::assemble::Tolerances;
 use super::file::{InstanceDeclaration, PropertyDeclaration};
 use super::parameter::{Refused, parse, quantities_of};
@@ -7,11 +9,11 @@ use super::{Instance, Parameter, ParameterValue, Parameters, Task};
 use crate::prototype::avatar::{Condition, SignalDeclaration};
 use crate::prototype::basic::{BasicElement, parse_boolean};
 use crate::prototype::kind::{ParameterDescriptor, ParameterType};
-use crate::prototype::quantity::{from_si, si_unit, to_si, with_unit};
+use crate::prototype::quantity::{from_si, parse_numbers, si_unit, to_si, with_unit};
 use crate::prototype::setting::Setting;
 use crate::prototype::{self, Assignment, Prototype, substitute};
 use crate::signal_map::{Kind, RegisterId, Signal};
-use crate::value::{ElementaryType, Unit};
+use crate::value::{ElementaryType, Quantity, Unit};
 use crate::xml::{Fault, Faults, Located, Place, nearest, one_of};
 
 /// An instance and what it says where.
@@ -82,6 +84,7 @@ pub(super) fn build(
         prototype: prototype.meta.name.value.clone(),
         pose: declaration.pose.unwrap_or_default(),
         tasks,
+        shape: settings.shape(),
         effects: declaration.effects.iter().map(|effect| effect.spec.clone()).collect(),
     };
     Built { instance, references, set }
@@ -157,6 +160,29 @@ impl<'a> Settings<'a> {
         let text = Located::new(replaced.unwrap_or_else(|_| text.clone()), &setting.default.place);
         let (unit, declared_tolerance) = (setting.unit, setting.tolerance);
         Resolved { text, is_set: false, unit, set_tolerance: None, declared_tolerance }
+    }
+
+    /// The parameters of the meta-descriptor as values. What is wrong with a text is told where it is used.
+    fn shape(&self) -> BTreeMap<String, ParameterValue> {
+        let parameters = self.prototype.meta.parameters.iter().zip(&self.parameters);
+        let value = |(parameter, resolved): (&prototype::meta::Parameter, &Resolved)| {
+            let Setting { name, ty, unit, .. } = &parameter.setting;
+            let text = resolved.text.value.as_str();
+            let value = match ty.element {
+                BasicElement::Boolean if !ty.array => ParameterValue::Boolean(parse_boolean(text)?),
+                _ if ty.is_numeric() => {
+                    let quantity = unit.map_or(Quantity::One, |unit| unit.quantity);
+                    let numbers = parse_numbers(text, *unit, &[quantity]).ok()?;
+                    match numbers.as_slice() {
+                        [number] if !ty.array => ParameterValue::Number(*number),
+                        _ => ParameterValue::Numbers(numbers),
+                    }
+                }
+                _ => ParameterValue::Text(text.to_owned()),
+            };
+            Some((name.value.clone(), value))
+        };
+        parameters.filter_map(value).collect()
     }
 
     /// Whether a signal's condition holds.

@@ -86,6 +86,8 @@ pub struct Instance {
     pub prototype: String,
     pub pose: Pose,
     pub tasks: Vec<Task>,
+    /// The parameters of its prototype's meta-descriptor, by name, in SI units: what its shape follows from.
+    pub shape: BTreeMap<String, ParameterValue>,
     /// What its device adds to the nominal law.
     pub effects: Vec<EffectSpec>,
 }

@@ -51,7 +51,8 @@ pub fn engine(plant: &Plant, step: Duration, seed: u64) -> Result<Engine, RunErr
 /// Tells models of one name apart: 16 hexadecimal digits made of all that the plant's behaviour follows from.
 pub fn hash(plant: &Plant) -> String {
     let mut text = xml::write(&plant.signal_map);
-    for Instance { name, prototype, pose, tasks, effects } in &plant.instances {
+    // Shapes are left out: what they do to behaviour, the tasks' parameters say.
+    for Instance { name, prototype, pose, tasks, effects, shape: _ } in &plant.instances {
         text.push_str(&format!("{name} {prototype} {pose:?} {effects:?}\n"));
         for task in tasks {
             text.push_str(&format!("{} {} {:?} {:?}\n", task.name, task.kind.name, task.parameters, task.ports));

@@ -1,0 +1,161 @@
+//! The scenes of our plants: that their frames are where the engine has its bodies, and that only what moves is computed.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::Engine;
+use crate::device::KINDS;
+use crate::kinematics::DVec3;
+use crate::plant::embedded::Embedded;
+use crate::plant::{Plant, load};
+use crate::scene::{Poses, Scene};
+use crate::signal_map::RegisterId;
+use crate::value::Value;
+
+fn plant(model: &str) -> Plant {
+    load(&Embedded, model, KINDS).expect("a model of ours")
+}
+
+struct Shown {
+    plant: Plant,
+    engine: Engine,
+}
+
+impl Shown {
+    fn new(model: &str) -> Shown {
+        let plant = plant(model);
+        let mut engine = Engine::new(&plant, Duration::from_millis(10), 1).expect("an engine");
+        engine.show(&plant, Arc::new(Scene::of(&plant)));
+        Shown { plant, engine }
+    }
+
+    fn run(&mut self, commands: &[(&str, f64)], ticks: usize) {
+        let signals = self.plant.signal_map.signals();
+        let command = |(name, value): &(&str, f64)| {
+            let index = signals.iter().position(|signal| signal.name == *name).expect("a signal");
+            (RegisterId(index as u32), Value::from_f64(signals[index].ty.element, *value))
+        };
+        let commands: Vec<_> = commands.iter().map(command).collect();
+        self.engine.tick(&commands);
+        for _ in 1..ticks {
+            self.engine.tick(&[]);
+        }
+    }
+
+    fn poses(&self) -> &Poses {
+        self.engine.poses().expect("it is shown")
+    }
+
+    fn place(&self, name: &str) -> DVec3 {
+        self.poses().world(self.poses().scene().find(name).expect(name)).translation
+    }
+
+    fn moved(&self) -> Vec<&str> {
+        let scene = self.poses().scene();
+        self.poses().moved().iter().map(|id| scene.node(*id).name.as_str()).collect()
+    }
+}
+
+#[test]
+fn the_joint_of_the_references_example_resolves() {
+    let scene = Scene::of(&plant("models/depalletizer"));
+    let name = crate::prototype::substitute("$.Spintore.T", "Pusher1", |_| None).expect("a name");
+    let id = scene.find_joint(&name).expect("the joint");
+    assert_eq!((scene.node(id).name.as_str(), scene.node(id).joint.limits), ("Pusher1.Spintore", [0.0, 0.75]));
+    assert_eq!(scene.find_joint("Pusher1.Spintore.R"), None);
+    assert_eq!(scene.find_joint("Pusher1.Spindel.T"), None);
+}
+
+#[test]
+fn frames_follow_the_devices_and_only_what_moves_is_computed() {
+    let mut shown = Shown::new("models/depalletizer");
+    shown.run(&[], 1);
+    assert_eq!(shown.moved(), [] as [&str; 0]);
+    shown.run(&[("Pusher1.command", 1.0)], 10);
+    assert_eq!(shown.moved(), ["Pusher1.Spintore"]);
+    assert!((shown.place("Pusher1.Spintore") - DVec3::new(5.85, 3.8, 0.77)).length() < 1e-9);
+    shown.run(&[("Robot.RTarget", FRAC_PI_2), ("Robot.YTarget", 1.2)], 400);
+    // At R = π/2 the gripper that hangs at +x of the tool stands to its left.
+    assert!(
+        (shown.place("Gripper1.Rim") - DVec3::new(4.0, 1.38, 1.7)).length() < 1e-4,
+        "{}",
+        shown.place("Gripper1.Rim")
+    );
+    assert_eq!(shown.moved(), [] as [&str; 0]);
+    shown.run(&[("Robot.ZTarget", -0.4)], 2);
+    let hanging = ["Robot.Z", "Robot.R", "Gripper1", "Gripper1.Rim", "Gripper2", "Gripper2.Rim"];
+    assert_eq!(shown.moved(), hanging);
+}
+
+#[test]
+fn a_viewer_that_looks_seldom_misses_nothing() {
+    let mut shown = Shown::new("models/rig");
+    shown.run(&[("Axis.positionTarget", 0.2), ("Motor.speedTarget", 5.0), ("Motor.enable", 1.0)], 50);
+    let seen = shown.poses().version();
+    shown.run(&[("Motor.enable", 0.0), ("Robot.XTarget", 0.1)], 300);
+    let names: Vec<&str> =
+        shown.poses().moved_since(seen).map(|(id, _)| shown.poses().scene().node(id).name.as_str()).collect();
+    assert!(names.contains(&"Motor.Shaft") && names.contains(&"Robot.X") && names.contains(&"Robot.Z"), "{names:?}");
+    assert!(!names.contains(&"Pusher.Spintore") && !names.contains(&"Belt"), "{names:?}");
+    assert_eq!(shown.poses().moved_since(shown.poses().version()).count(), 0);
+}
+
+#[test]
+fn what_is_shown_changes_nothing_that_is_computed() {
+    let mut shown = Shown::new("models/rig");
+    let mut bare = Engine::new(&shown.plant, Duration::from_millis(10), 1).expect("an engine");
+    for _ in 0..300 {
+        shown.engine.tick(&[]);
+        bare.tick(&[]);
+    }
+    assert_eq!(shown.engine.state_hash(), bare.state_hash());
+}
+
+#[test]
+fn beams_are_where_parts_cut_them() {
+    let mut shown = Shown::new("models/depalletizer");
+    let scene = Arc::clone(shown.poses().scene());
+    assert_eq!(scene.beams().len(), 30);
+    shown.run(&[], 1);
+    for (beam, is_cut) in scene.beams().iter().zip(shown.engine.cut_beams()) {
+        let signal = shown.plant.signal_map.signals().iter().position(|signal| signal.name == beam.name).expect("it");
+        assert_eq!(shown.engine.registers()[signal], Value::Bool(is_cut), "{}", beam.name);
+    }
+    let cut: Vec<&str> = scene
+        .beams()
+        .iter()
+        .zip(shown.engine.cut_beams())
+        .filter(|(_, cut)| *cut)
+        .map(|(b, _)| b.name.as_str())
+        .collect();
+    assert!(cut.contains(&"Conveyor2.lightBarrierA") && cut.contains(&"Conveyor2.lightBarrierB"), "{cut:?}");
+    // The centre of a beam of a curve lies over its centre line.
+    let beam = scene.beams().iter().find(|beam| beam.name == "Curve1.lightBarrierA").expect("it");
+    let pose = Poses::new(Arc::clone(&scene));
+    let [a, b] = beam.ends.map(|end| pose.world(beam.node).transform_point(end));
+    let middle = (a + b) / 2.0 - DVec3::new(5.2, 2.0, 0.0);
+    assert!((middle.truncate().length() - 0.8).abs() < 1e-9, "{middle}");
+}
+
+#[test]
+fn every_mesh_of_ours_is_closed_and_faces_outwards() {
+    let mut names = std::collections::BTreeSet::new();
+    for model in ["models/depalletizer", "models/rig", "models/curve", "models/servo-arm", "models/servo-pendulum"] {
+        let scene = Scene::of(&plant(model));
+        for mesh in scene.meshes() {
+            assert_eq!(mesh.open_edges(), 0, "{}", mesh.name);
+            assert!(mesh.volume() > 0.0, "{} {}", mesh.name, mesh.volume());
+            names.insert(mesh.name.clone());
+        }
+    }
+    assert!(names.contains("bellows cup") && names.len() > 40, "{names:?}");
+}
+
+#[test]
+fn the_line_has_about_as_many_triangles_as_the_references() {
+    let scene = Scene::of(&plant("models/depalletizer"));
+    let (seen, stored) = (scene.triangles(), scene.stored_triangles());
+    assert!((200_000..300_000).contains(&seen), "{seen} seen, {stored} stored");
+    assert!(stored < seen / 4, "{stored} stored of {seen}");
+}
