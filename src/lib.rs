@@ -18,6 +18,7 @@ pub mod prototype;
 pub mod replay;
 pub mod run;
 pub mod scene;
+pub mod security;
 pub mod session;
 pub mod signal_map;
 pub mod time;

@@ -28,6 +28,9 @@ pub enum Received {
     },
     /// The connection ended or could not be made; why, for people.
     Closed(String),
+    /// The connection could not be made because one side does not accept what the other shows of itself, a certificate or
+    /// a token; why and what to do, for people. Trying again is of no use.
+    Denied(String),
 }
 
 /// Carries text messages to the automation and back. It never waits.
@@ -83,6 +86,8 @@ pub enum Event {
     Session(ClientEvent),
     /// Values that arrived in a message with good ones could not be used; the automation has been told.
     ValuesRefused(Vec<Fault>),
+    /// One side does not accept what the other shows of itself, a certificate or a token: why, and what to do.
+    Denied(String),
     /// The automation did not read for so long that this many changes could not be kept.
     ReportsLost { changes: u64 },
     /// The automation sent faster than the simulation takes, and the queue is full.
@@ -164,6 +169,10 @@ impl<T: Transport> Connector<T> {
             Received::Binary => self.handle(now, Input::Binary),
             Received::InvalidUtf8 => self.handle(now, Input::InvalidUtf8),
             Received::TooLong { limit } => self.handle(now, Input::TooLong { limit }),
+            Received::Denied(why) => {
+                self.events.push_back(Event::Denied(why.clone()));
+                self.receive(now, Received::Closed(why));
+            }
             Received::Closed(why) => {
                 self.set_why(Some(why));
                 self.handle(now, Input::Closed);
@@ -323,7 +332,11 @@ impl<T: Transport> Adapter for Connector<T> {
 
     fn init(&mut self, map: &Arc<SignalMap>) {
         let settings = self.settings.as_ref().expect("an adapter is configured before it is initialised");
-        let client = ClientSettings { timeout: settings.timeout, ..ClientSettings::new(settings.id.clone()) };
+        let client = ClientSettings {
+            timeout: settings.timeout,
+            limits: settings.limits,
+            ..ClientSettings::new(settings.id.clone())
+        };
         self.session = Some(Session {
             client: Client::new(client, Arc::clone(map)),
             outbox: Outbox::default(),

@@ -3,6 +3,8 @@
 use std::time::Duration;
 
 use super::Endpoint;
+use crate::security::{ClientTls, Token};
+use crate::session::Limits;
 
 /// The settings of a connector: those of the reference (host, port, timeout, signals map; section 5.3.2.3) and ours.
 ///
@@ -15,10 +17,14 @@ pub struct Settings {
     pub timeout: Duration,
     /// The longest message that is taken in, bytes.
     pub max_message: usize,
+    /// How many values a message may bring, and how many messages a second may.
+    pub limits: Limits,
     /// Who connects: the same for all connections of one run, unique across runs.
     pub id: String,
     /// Sent as `Authorization: Bearer …` with the WebSocket handshake.
-    pub token: Option<String>,
+    pub token: Option<Token>,
+    /// How a `wss://` endpoint is reached; without it, only `ws://` is.
+    pub tls: Option<ClientTls>,
 }
 
 impl Settings {
@@ -28,7 +34,15 @@ impl Settings {
     /// Settings for `endpoint` under the name `id`, with the protocol's limits.
     pub fn new(endpoint: Endpoint, id: impl Into<String>) -> Settings {
         let timeout = Duration::from_secs(5);
-        Settings { endpoint, timeout, max_message: Settings::MAX_MESSAGE, id: id.into(), token: None }
+        Settings {
+            endpoint,
+            timeout,
+            max_message: Settings::MAX_MESSAGE,
+            limits: Limits::default(),
+            id: id.into(),
+            token: None,
+            tls: None,
+        }
     }
 }
 
@@ -42,8 +56,8 @@ pub enum SettingsError {
         Settings::LEAST_MESSAGE
     )]
     MessageTooShort { found: usize },
-    #[error("the token holds a character that cannot stand in an HTTP header: expected visible ASCII characters")]
-    Token,
+    #[error("{0} is to be reached over TLS, and nothing says whom to trust: expected settings for TLS")]
+    NoTls(Endpoint),
 }
 
 impl Settings {
@@ -58,11 +72,9 @@ impl Settings {
         if self.max_message < Settings::LEAST_MESSAGE {
             return Err(SettingsError::MessageTooShort { found: self.max_message });
         }
-        match &self.token {
-            Some(token) if token.is_empty() || !token.bytes().all(|b| b.is_ascii_graphic()) => {
-                Err(SettingsError::Token)
-            }
-            _ => Ok(()),
+        if self.endpoint.is_secure() && self.tls.is_none() {
+            return Err(SettingsError::NoTls(self.endpoint.clone()));
         }
+        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! The connector's transport over a real WebSocket (RFC 6455), the channel of the reference's IEC 61499 Connector.
 //!
-//! The simulation is the client. Small messages must not wait for one another, so `TCP_NODELAY` is set. A turn of the
+//! The simulation is the client. A `wss://` endpoint is reached over TLS. Small messages must not wait for one another, so `TCP_NODELAY` is set. A turn of the
 //! loop writes all it has to send before it flushes once: waking the other side is what costs (see `docs/performance.md`).
 
 use std::collections::VecDeque;
@@ -24,6 +24,7 @@ use tokio_tungstenite::tungstenite::{Error, Message};
 
 use super::connector::{Connector, Received, Transport};
 use super::{Endpoint, Settings};
+use crate::security::{self, Stream, Token};
 use crate::time::Instant;
 
 /// The connector over a real WebSocket.
@@ -42,7 +43,7 @@ impl Default for WebSocketConnector {
     }
 }
 
-type Web = WebSocketStream<TcpStream>;
+type Web = WebSocketStream<Stream>;
 type Dialling = Pin<Box<dyn Future<Output = Result<Web, Error>> + Send>>;
 type Closing = Pin<Box<dyn Future<Output = ()> + Send>>;
 
@@ -102,7 +103,10 @@ impl Transport for Socket {
                 }
                 Poll::Ready(Err(error)) => {
                     let why = self.explain_dial(&error);
-                    self.hang_up(why)
+                    match (self.hang_up(why), is_denial(&error)) {
+                        (Poll::Ready(Received::Closed(why)), true) => Poll::Ready(Received::Denied(why)),
+                        (received, _) => received,
+                    }
                 }
             },
             State::Open(_) => self.poll_frame(cx),
@@ -209,10 +213,14 @@ impl Socket {
 
 /// Opens a connection: TCP, then the WebSocket handshake.
 async fn open(settings: Settings) -> Result<Web, Error> {
-    let Settings { endpoint, max_message, token, .. } = &settings;
+    let Settings { endpoint, max_message, token, tls, .. } = &settings;
     let stream = TcpStream::connect((endpoint.host(), endpoint.port())).await?;
     stream.set_nodelay(true)?;
-    let request = handshake(endpoint, token.as_deref())?;
+    let stream = match tls.as_ref().filter(|_| endpoint.is_secure()) {
+        Some(tls) => tls.connect(endpoint.host(), stream).await?,
+        None => Stream::Plain(stream),
+    };
+    let request = handshake(endpoint, token.as_ref())?;
     let limits = WebSocketConfig::default().max_message_size(Some(*max_message)).max_frame_size(Some(*max_message));
     let (web, _response) = client_async_with_config(request, stream, Some(limits)).await?;
     Ok(web)
@@ -220,11 +228,11 @@ async fn open(settings: Settings) -> Result<Web, Error> {
 
 fn handshake(
     endpoint: &Endpoint,
-    token: Option<&str>,
+    token: Option<&Token>,
 ) -> Result<tokio_tungstenite::tungstenite::handshake::client::Request, Error> {
     let mut request = endpoint.to_string().into_client_request()?;
     if let Some(token) = token {
-        let mut value = HeaderValue::from_str(&format!("Bearer {token}"))?;
+        let mut value = HeaderValue::from_str(&token.header())?;
         value.set_sensitive(true);
         request.headers_mut().insert(AUTHORIZATION, value);
     }
@@ -271,14 +279,33 @@ fn farewell(frame: Option<&CloseFrame>) -> String {
     }
 }
 
+/// Whether a dial that failed with `error` would fail again, however often it is tried: one side does not accept what the
+/// other shows of itself.
+fn is_denial(error: &Error) -> bool {
+    match error {
+        Error::Io(error) => security::explain(error).is_some(),
+        Error::Http(response) => [401, 403].contains(&response.status().as_u16()),
+        _ => false,
+    }
+}
+
 /// What an error of the WebSocket means to people.
 fn explain(error: &Error) -> String {
     match error {
+        Error::Io(error) if security::explain(error).is_some() => security::explain(error).unwrap_or_default(),
         Error::Io(error) => match error.kind() {
             io::ErrorKind::ConnectionRefused => "nobody listens there".to_owned(),
             io::ErrorKind::ConnectionReset | io::ErrorKind::BrokenPipe => "the connection broke off".to_owned(),
             _ => error.to_string(),
         },
+        Error::Http(response) if response.status() == 401 => {
+            "the server asks for a token, and does not accept ours or had none: give the right one with --token-file FILE \
+             or in KINETWIN_TOKEN (HTTP status 401)"
+                .to_owned()
+        }
+        Error::Http(response) if response.status() == 403 => {
+            "the server knows us and does not let us in: ask for the right to connect (HTTP status 403)".to_owned()
+        }
         Error::Http(response) => {
             format!("the server answered the WebSocket handshake with HTTP status {}", response.status())
         }

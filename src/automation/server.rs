@@ -15,6 +15,7 @@ use tokio::sync::mpsc;
 
 use super::fault::{Delivery, Faulty};
 use super::{ConnectionId, Statistics};
+use crate::security::{ServerTls, Token};
 use crate::session::Input;
 use crate::time::Instant;
 
@@ -31,12 +32,16 @@ pub struct ListenSettings {
     pub address: SocketAddr,
     /// The longest message that is read, bytes. A longer one closes its connection with 1009.
     pub max_message: usize,
+    /// Speaks TLS, as this says.
+    pub tls: Option<ServerTls>,
+    /// Whoever connects must show this bearer token with the WebSocket handshake.
+    pub token: Option<Token>,
 }
 
 impl ListenSettings {
-    /// Listens at `address` and reads messages up to 1 MiB.
+    /// Listens at `address`, unencrypted and for everyone, and reads messages up to 1 MiB.
     pub fn new(address: SocketAddr) -> ListenSettings {
-        ListenSettings { address, max_message: 1 << 20 }
+        ListenSettings { address, max_message: 1 << 20, tls: None, token: None }
     }
 
     /// Listens on a free port of the loopback interface.
@@ -190,7 +195,7 @@ impl Hub {
         tracing::debug!(target: "automation", "{:>11} connection {} from {peer}", self.now(), id.0);
         let (order, orders) = mpsc::channel(ORDERS);
         self.connections.insert(id, order);
-        tokio::spawn(connection::serve(stream, self.settings.max_message, id, orders, arrive));
+        tokio::spawn(connection::serve(stream, self.settings.clone(), id, orders, arrive));
     }
 
     /// Hands what came from a connection to the automation.

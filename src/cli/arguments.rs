@@ -42,7 +42,7 @@ Environment:
 Exit codes:
   0  the command did what was asked
   1  the answer is no: a check found a mismatch, a comparison differs, a run never had a session
-  2  bad input or use; nothing was started";
+  2  bad input or use, and nothing was started; or server and run do not accept each other's certificate or token";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -134,6 +134,7 @@ Examples:
   kinetwin run models/depalletizer --connect ws://192.168.0.10:8080
   kinetwin run models/depalletizer --speed max --for 10m --seed 7 --json
   kinetwin run ./my-plant --record session.cps.jsonl.zst
+  kinetwin run ./my-plant --connect wss://plc.example:8443 --ca plant-ca.pem --token-file token
 
 A server that is absent or lost is tried again until the run ends, and simulated time goes on. It hears all present values \
 first whenever a session stands.
@@ -294,7 +295,7 @@ Examples:
 /// How the automation is reached.
 #[derive(Debug, Args)]
 pub struct ConnectionArguments {
-    /// The automation: ws://HOST:PORT, or embedded for the one in this process [default: the plant's, else embedded]
+    /// The automation: ws://HOST:PORT, wss://HOST:PORT over TLS, or embedded for the one in this process [default: the plant's, else embedded]
     #[arg(long, value_name = "URL", value_parser = parse_connect)]
     pub connect: Option<Connect>,
     /// How long a connection may take to open, and an answer to come [default: the plant's, else 5s]
@@ -303,6 +304,21 @@ pub struct ConnectionArguments {
     /// The longest message taken in; a longer one closes the connection
     #[arg(long, value_name = "SIZE", value_parser = parse_size, default_value = "1MiB")]
     pub max_message: usize,
+    /// The most values taken in one message; one with more is refused whole
+    #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_values: u32,
+    /// The most messages taken in a second; more close the connection
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_rate: u32,
+    /// The authority that must have signed a wss:// server's certificate, PEM [default: those that the system trusts]
+    #[arg(long, value_name = "FILE")]
+    pub ca: Option<PathBuf>,
+    /// Our own certificate, for a wss:// server that asks for one, PEM
+    #[arg(long, value_name = "FILE", requires = "key")]
+    pub cert: Option<PathBuf>,
+    /// The private key of --cert, PEM, not encrypted
+    #[arg(long, value_name = "FILE", requires = "cert")]
+    pub key: Option<PathBuf>,
     /// A file with a bearer token for the server [or the environment variable KINETWIN_TOKEN]
     #[arg(long, value_name = "FILE")]
     pub token_file: Option<PathBuf>,

@@ -15,6 +15,17 @@ use super::words;
 /// The variable that chooses what is logged.
 const VARIABLE: &str = "KINETWIN_LOG";
 
+/// Libraries that would write whatever passes through them to a log of their finest level, the WebSocket handshake with its
+/// token included. They never do, whatever is asked for.
+const TELLTALES: &[&str] = &[
+    "tungstenite",
+    "tungstenite::handshake",
+    "tungstenite::handshake::client",
+    "tokio_tungstenite",
+    "rustls",
+    "tokio_rustls",
+];
+
 /// Lines that wait to be shown, at most.
 const LINES: usize = 64;
 
@@ -34,6 +45,9 @@ impl Log {
     pub fn begin() -> Log {
         let log = Log::default();
         let filter = EnvFilter::try_from_env(VARIABLE).unwrap_or_else(|_| EnvFilter::new("warn"));
+        let filter = TELLTALES.iter().fold(filter, |filter, telltale| {
+            filter.add_directive(format!("{telltale}=info").parse().expect("a directive"))
+        });
         let format = tracing_subscriber::fmt().with_env_filter(filter).with_ansi(false).without_time();
         // Somebody who embeds this library may have their own: theirs stays.
         let _ = format.with_writer(log.clone()).try_init();

@@ -6,6 +6,7 @@
 mod apply;
 mod arguments;
 mod check;
+mod credentials;
 mod diagnose;
 mod exam;
 mod experiment;

@@ -5,6 +5,7 @@ use std::time::Duration;
 use crossbeam::channel::{RecvTimeoutError, TryRecvError};
 
 use super::arguments::{ConnectionArguments, RunArguments};
+use super::credentials;
 use super::log::Log;
 use super::report;
 use super::signals::Interruption;
@@ -14,6 +15,7 @@ use super::words;
 use super::{Answer, Failure};
 use crate::pace::WallClock;
 use crate::run::{self, Gravity, Handle, Notice, Options, RecordTo, Summary};
+use crate::session::Limits;
 
 /// Runs a model to its end.
 pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
@@ -32,7 +34,10 @@ pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
     } else {
         words::answer(report::text(&summary))?;
     }
-    Ok(answer(&summary))
+    match &summary.denied {
+        Some(why) => Err(Failure(format!("error: {why}"))),
+        None => Ok(answer(&summary)),
+    }
 }
 
 fn answer(summary: &Summary) -> Answer {
@@ -183,20 +188,9 @@ pub fn connecting(model: &str, connection: &ConnectionArguments) -> Result<Optio
         connect: connection.connect.clone(),
         timeout: connection.timeout,
         max_message: connection.max_message,
-        token: token(connection)?,
+        limits: Limits { values: connection.max_values as usize, messages_a_second: connection.max_rate },
+        token: credentials::token(connection)?,
+        tls: credentials::tls(connection)?,
         ..Options::new(model)
     })
-}
-
-/// The bearer token: from the file that is named, else from the environment.
-fn token(connection: &ConnectionArguments) -> Result<Option<String>, Failure> {
-    let text = match &connection.token_file {
-        Some(path) => std::fs::read_to_string(path)
-            .map_err(|error| Failure(format!("error: failed to read the token from {}: {error}", path.display())))?,
-        None => match std::env::var("KINETWIN_TOKEN") {
-            Ok(text) => text,
-            Err(_) => return Ok(None),
-        },
-    };
-    Ok(Some(text.trim().to_owned()))
 }

@@ -95,7 +95,7 @@ impl Asking {
                 Received::Binary => self.query.handle(now, Input::Binary),
                 Received::InvalidUtf8 => self.query.handle(now, Input::InvalidUtf8),
                 Received::TooLong { limit } => self.query.handle(now, Input::TooLong { limit: *limit }),
-                Received::Closed(why) => {
+                Received::Closed(why) | Received::Denied(why) => {
                     self.why = Some(why.clone());
                     self.query.handle(now, Input::Closed);
                 }

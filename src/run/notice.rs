@@ -33,6 +33,8 @@ pub(super) fn notice(event: &Event, now: Instant) -> Option<Notice> {
     let (gravity, text) = match event {
         Event::Session(event) => session(event, now)?,
         Event::ValuesRefused(faults) => (Gravity::Warning, format!("refused values: {}", listed(faults))),
+        // Said by the loss of the connection that follows, and where the run ends for it, at its end.
+        Event::Denied(_) => return None,
         Event::ReportsLost { changes } => (
             Gravity::Warning,
             format!("lost {changes} changes: the automation did not read them in time; the connection is closed"),

@@ -7,6 +7,8 @@ use super::RunError;
 use crate::adapter::{Endpoint, Settings};
 use crate::pace::Rates;
 use crate::plant::{EMBEDDED_HOST, Plant};
+use crate::security::{ClientTls, Token};
+use crate::session::Limits;
 use crate::time::format_duration;
 
 /// Everything about a run that its caller decides. What is `None` is as the plant's file says.
@@ -33,8 +35,12 @@ pub struct Options {
     pub timeout: Option<Duration>,
     /// The longest message that is taken in, bytes.
     pub max_message: usize,
+    /// How many values a message may bring, and how many messages a second may.
+    pub limits: Limits,
     /// A bearer token for the automation's server.
-    pub token: Option<String>,
+    pub token: Option<Token>,
+    /// How a `wss://` server is reached.
+    pub tls: Option<ClientTls>,
 }
 
 /// An automation.
@@ -81,7 +87,9 @@ impl Options {
             record: None,
             timeout: None,
             max_message: Settings::MAX_MESSAGE,
+            limits: Limits::default(),
             token: None,
+            tls: None,
         }
     }
 }
@@ -138,7 +146,9 @@ impl Options {
         Settings {
             timeout: self.timeout.unwrap_or(plant.adapter.timeout),
             max_message: self.max_message,
+            limits: self.limits,
             token: self.token.clone(),
+            tls: self.tls.clone(),
             ..Settings::new(endpoint, id)
         }
     }

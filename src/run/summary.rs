@@ -64,6 +64,10 @@ pub struct Summary {
     /// Why the server refused the session for good.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refused: Option<String>,
+    /// Which side did not accept what the other showed of itself, a certificate or a token, and what to do about it; the
+    /// run ended for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub denied: Option<String>,
     /// The file that was recorded to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded: Option<String>,
@@ -99,6 +103,7 @@ pub(super) struct Spoken {
     pub traffic: Traffic,
     sessions: u64,
     refused: Option<String>,
+    denied: Option<String>,
 }
 
 impl Spoken {
@@ -110,8 +115,15 @@ impl Spoken {
                 let said = message.as_deref().map(|message| format!(": {message}")).unwrap_or_default();
                 self.refused = Some(format!("{result}{said}"));
             }
+            // Once a session stood, a server that shows another certificate may yet show the right one again.
+            Event::Denied(why) if self.sessions == 0 => self.denied = Some(why.clone()),
             _ => {}
         }
+    }
+
+    /// Whether the run can as well end: no session will ever stand.
+    pub fn is_denied(&self) -> bool {
+        self.denied.is_some()
     }
 }
 
@@ -154,6 +166,7 @@ impl Summary {
             round_trip_us,
             step_us: Quantiles::of_ns(&timing.computing_ns),
             refused: spoken.refused.clone(),
+            denied: spoken.denied.clone(),
             recorded,
         }
     }

@@ -164,7 +164,7 @@ impl Io {
                     spoken.take(&event);
                     // Where nobody reads them fast enough, the newest are left out.
                     notice(&event, now).map(|notice| say.try_send(notice));
-                    if event.is_final_refusal() {
+                    if event.is_final_refusal() || spoken.is_denied() {
                         stop.stop();
                     }
                 }

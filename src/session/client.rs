@@ -5,8 +5,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::exchange::{Exchange, one_line};
+use super::limits::Gauge;
 use super::outbox::Outbox;
-use super::{Input, OUTPUT_LIMIT, Output, Staged, close_code};
+use super::{Input, Limits, OUTPUT_LIMIT, Output, Staged, close_code};
 use crate::signal_map::{Direction, RegisterId, SignalMap};
 use crate::time::{Instant, format_duration};
 use crate::value::Value;
@@ -26,6 +27,8 @@ pub struct ClientSettings {
     pub longest_pause: Duration,
     /// The signals to be sent, and how often at most (R007); `None` for all, at every change.
     pub signals: Option<Vec<SignalSelection>>,
+    /// What is taken from the server.
+    pub limits: Limits,
 }
 
 impl ClientSettings {
@@ -37,6 +40,7 @@ impl ClientSettings {
             first_pause: Duration::from_millis(500),
             longest_pause: Duration::from_secs(30),
             signals: None,
+            limits: Limits::default(),
         }
     }
 }
@@ -111,6 +115,7 @@ pub struct Client {
     /// The id as it travels.
     id: String,
     exchange: Exchange,
+    gauge: Gauge,
     state: State,
     /// Pauses since the run began or since a session stood; each is longer than the one before.
     pauses: u32,
@@ -153,6 +158,7 @@ impl Client {
         outbox.event(ClientEvent::Dial { attempt: 1 });
         Client {
             id: to_base64(&settings.id),
+            gauge: Gauge::new(&settings.limits),
             settings,
             exchange: Exchange::new(map, Direction::Report),
             state: State::Dialling { deadline: None },
@@ -172,6 +178,9 @@ impl Client {
             _ if !self.state.is_connected() => {}
             _ if self.outbox.is_full() => {
                 self.hang_up(now, close_code::POLICY, format!("{OUTPUT_LIMIT} outputs were not fetched"));
+            }
+            Input::Text(_) | Input::Binary if let Err(reason) = self.gauge.count(now) => {
+                self.hang_up(now, close_code::POLICY, reason);
             }
             Input::Text(text) => self.text(now, text),
             Input::Binary => self.notice("a binary message was ignored: the protocol speaks JSON text"),
@@ -388,6 +397,9 @@ impl Client {
     fn values(&mut self, text: &str, entries: &[Entry<'_>]) {
         if !matches!(self.state, State::Established | State::Disconnecting { .. }) {
             return self.reject(text, "values came before the server accepted the session".to_owned());
+        }
+        if let Some(reason) = self.settings.limits.refuse(entries.len()) {
+            return self.reject(text, reason);
         }
         let receipt = self.exchange.receive(text, entries);
         if receipt.nameless > 0 {

@@ -80,6 +80,7 @@
 mod client;
 mod exchange;
 mod interface;
+mod limits;
 mod outbox;
 mod query;
 mod selection;
@@ -93,6 +94,7 @@ pub(crate) use exchange::Exchange;
 
 pub use client::{Client, ClientEvent, ClientSettings, Ending};
 pub use interface::{Mismatch, interface_of, mismatches};
+pub use limits::Limits;
 pub use query::{Query, QueryEvent};
 pub use server::{Server, ServerEvent, ServerSettings};
 

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use super::exchange::{Exchange, one_line};
 use super::interface::interface_of;
+use super::limits::Gauge;
 use super::outbox::Outbox;
 use super::selection::Selection;
-use super::{Input, OUTPUT_LIMIT, Output, Staged, close_code};
+use super::{Input, Limits, OUTPUT_LIMIT, Output, Staged, close_code};
 use crate::signal_map::{Direction, RegisterId, SignalMap};
 use crate::time::Instant;
 use crate::value::Value;
@@ -20,12 +21,14 @@ pub struct ServerSettings {
     pub name: String,
     /// Refuse every `Connect` with this result and these words; `None` to accept.
     pub refuse: Option<(ResultCode, String)>,
+    /// What is taken from a client.
+    pub limits: Limits,
 }
 
 impl ServerSettings {
     /// A server called `name` that lets everyone in.
     pub fn new(name: impl Into<String>) -> ServerSettings {
-        ServerSettings { name: name.into(), refuse: None }
+        ServerSettings { name: name.into(), refuse: None, limits: Limits::default() }
     }
 }
 
@@ -74,6 +77,7 @@ pub enum ServerEvent {
 pub struct Server {
     settings: ServerSettings,
     exchange: Exchange,
+    gauge: Gauge,
     state: State,
     outbox: Outbox<ServerEvent>,
 }
@@ -98,7 +102,8 @@ impl Server {
     /// A server for a connection just accepted, of the automation of the plant that `map` describes.
     pub fn new(settings: ServerSettings, map: Arc<SignalMap>) -> Server {
         let exchange = Exchange::new(map, Direction::Command);
-        Server { settings, exchange, state: State::Open, outbox: Outbox::new() }
+        let gauge = Gauge::new(&settings.limits);
+        Server { settings, exchange, gauge, state: State::Open, outbox: Outbox::new() }
     }
 
     /// Takes what happened.
@@ -112,6 +117,9 @@ impl Server {
             Input::Timeout => self.time_passed(now),
             _ if self.outbox.is_full() => {
                 self.close(close_code::POLICY, format!("{OUTPUT_LIMIT} outputs were not fetched"));
+            }
+            Input::Text(_) | Input::Binary if let Err(reason) = self.gauge.count(now) => {
+                self.close(close_code::POLICY, reason);
             }
             Input::Text(text) => self.text(text),
             Input::Binary => self.notice("a binary message was ignored: the protocol speaks JSON text"),
@@ -256,6 +264,9 @@ impl Server {
     fn values(&mut self, text: &str, entries: &[Entry<'_>]) {
         if !self.is_established() {
             return self.reject(text, "values came before a Connect was accepted".to_owned());
+        }
+        if let Some(reason) = self.settings.limits.refuse(entries.len()) {
+            return self.reject(text, reason);
         }
         let receipt = self.exchange.receive(text, entries);
         if receipt.nameless > 0 {

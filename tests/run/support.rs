@@ -33,11 +33,17 @@ pub struct Ended {
 impl Running {
     /// Starts `kinetwin` with `arguments`, in the project's folder.
     pub fn start(arguments: &[&str]) -> Running {
+        Running::start_with(arguments, &[])
+    }
+
+    /// As [`Running::start`], with these variables in its environment.
+    pub fn start_with(arguments: &[&str], environment: &[(&str, &str)]) -> Running {
         let mut child = Command::new(env!("CARGO_BIN_EXE_kinetwin"))
             .args(arguments)
             .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")))
             .env_remove("KINETWIN_TOKEN")
             .env_remove("KINETWIN_LOG")
+            .envs(environment.iter().copied())
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -45,6 +51,11 @@ impl Running {
             .expect("kinetwin starts");
         let errors = BufReader::new(child.stderr.take().expect("a pipe")).lines();
         Running { child, errors, said: Vec::new() }
+    }
+
+    /// Its process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
     }
 
     /// Waits for a line on standard error that holds `part`, and gives it.

@@ -7,12 +7,17 @@ use futures_util::{SinkExt, StreamExt};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
 use tokio::sync::mpsc;
+use tokio_tungstenite::tungstenite::handshake::server::{Callback, ErrorResponse, Request, Response};
+use tokio_tungstenite::tungstenite::http::header::{AUTHORIZATION, WWW_AUTHENTICATE};
+use tokio_tungstenite::tungstenite::http::{HeaderValue, StatusCode};
 use tokio_tungstenite::tungstenite::protocol::frame::coding::CloseCode;
 use tokio_tungstenite::tungstenite::protocol::{CloseFrame, WebSocketConfig};
 use tokio_tungstenite::tungstenite::{Error, Message, Utf8Bytes};
-use tokio_tungstenite::{WebSocketStream, accept_async_with_config};
+use tokio_tungstenite::{WebSocketStream, accept_hdr_async_with_config};
 
+use super::ListenSettings;
 use crate::automation::ConnectionId;
+use crate::security::{Stream, Token};
 
 /// What a connection gives.
 pub struct Event {
@@ -37,7 +42,7 @@ pub enum Order {
     Close { code: u16, reason: String },
 }
 
-type Web = WebSocketStream<TcpStream>;
+type Web = WebSocketStream<Stream>;
 
 /// How long a client has for the handshake.
 const HANDSHAKE: Duration = Duration::from_secs(10);
@@ -71,27 +76,53 @@ impl Hub {
 /// Serves one connection from its handshake to its end.
 pub async fn serve(
     stream: TcpStream,
-    max_message: usize,
+    settings: ListenSettings,
     connection: ConnectionId,
     orders: mpsc::Receiver<Order>,
     arrive: mpsc::Sender<Event>,
 ) {
     // A client that is gone already shows at the handshake.
     let _ = stream.set_nodelay(true);
-    let limits = WebSocketConfig::default().max_message_size(Some(max_message)).max_frame_size(Some(max_message));
     let hub = Hub { connection, arrive };
-    match tokio::time::timeout(HANDSHAKE, accept_async_with_config(stream, Some(limits))).await {
+    match tokio::time::timeout(HANDSHAKE, open(stream, &settings)).await {
         Ok(Ok(web)) => {
             if hub.tell(Arrival::Opened).await {
                 exchange(web, orders, &hub).await;
             }
         }
         Ok(Err(error)) => {
-            tracing::warn!(target: "automation", "connection {} is no WebSocket's: {error}", connection.0);
+            tracing::warn!(target: "automation", "connection {} was not let in: {error}", connection.0);
         }
         Err(_) => tracing::warn!(target: "automation", "connection {}: no handshake came", connection.0),
     }
     hub.tell(Arrival::Closed).await;
+}
+
+/// Makes the handshakes: that of TLS, where it is spoken, then the WebSocket's, in which the token is shown.
+async fn open(stream: TcpStream, settings: &ListenSettings) -> Result<Web, Error> {
+    let stream = match &settings.tls {
+        Some(tls) => tls.accept(stream).await?,
+        None => Stream::Plain(stream),
+    };
+    let limit = Some(settings.max_message);
+    let limits = WebSocketConfig::default().max_message_size(limit).max_frame_size(limit);
+    accept_hdr_async_with_config(stream, Admission(settings.token.as_ref()), Some(limits)).await
+}
+
+/// Lets in who shows the token, where one is asked for.
+struct Admission<'a>(Option<&'a Token>);
+
+impl Callback for Admission<'_> {
+    fn on_request(self, request: &Request, response: Response) -> Result<Response, ErrorResponse> {
+        let shown = request.headers().get(AUTHORIZATION).map(|value| value.as_bytes());
+        if self.0.is_none_or(|token| shown.is_some_and(|shown| token.is_carried_by(shown))) {
+            return Ok(response);
+        }
+        let mut refusal = ErrorResponse::new(Some("a bearer token is needed\n".to_owned()));
+        *refusal.status_mut() = StatusCode::UNAUTHORIZED;
+        refusal.headers_mut().insert(WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
+        Err(refusal)
+    }
 }
 
 /// Moves frames both ways until the connection ends.

@@ -111,3 +111,29 @@ fn an_owner_that_does_not_poll_loses_the_connection_and_not_the_order() {
     let outputs = server_outputs(&mut server);
     assert_eq!(outputs[OUTPUT_LIMIT], "close 1008: 65536 outputs were not fetched");
 }
+
+#[test]
+fn more_messages_in_a_second_than_the_limit_close_the_connection() {
+    let limits = Limits { messages_a_second: 10, ..Limits::default() };
+    let mut client = established_as(ClientSettings { limits, ..ClientSettings::new("run 1") });
+    let mut server = Server::new(ServerSettings { limits, ..ServerSettings::new("automation") }, map());
+    for _ in 0..20 {
+        client.handle(at(0), Input::Binary);
+        server.handle(at(0), Input::Binary);
+    }
+    let close = "close 1008: more than 10 messages came within a second";
+    let client_said = client_outputs(&mut client);
+    assert!(client_said.iter().any(|said| said == close), "{client_said:?}");
+    let server_said = server_outputs(&mut server);
+    assert!(server_said.iter().any(|said| said == close), "{server_said:?}");
+}
+
+#[test]
+fn more_values_in_a_message_than_the_limit_are_refused_whole() {
+    let limits = Limits { values: 2, ..Limits::default() };
+    let mut client = established_as(ClientSettings { limits, ..ClientSettings::new("run 1") });
+    let entry = r#"{"name":"Belt.run","value":true}"#;
+    let text = format!(r#"{{"SendValue":[{entry},{entry},{entry}]}}"#);
+    let expect = format!("rejected {text}: the message holds 3 values, more than the limit of 2");
+    check_client(&mut client, at(0), Input::Text(&text), &[&expect]);
+}

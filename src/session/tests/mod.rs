@@ -83,7 +83,12 @@ fn connecting() -> Client {
 
 /// A client whose session stands since t = 0.
 fn established() -> Client {
-    let mut client = connecting();
+    established_as(ClientSettings::new("run 1"))
+}
+
+fn established_as(settings: ClientSettings) -> Client {
+    let mut client = Client::new(settings, map());
+    client.handle(at(0), Input::Opened);
     client.handle(at(0), Input::Text(&reply(true, 200)));
     client_outputs(&mut client);
     assert!(client.is_established());

@@ -1,5 +1,7 @@
 //! `nxt-mock`: the automation of `kinetwin::automation` as a program of its own.
 
+mod security;
+
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::net::{SocketAddr, ToSocketAddrs as _};
@@ -38,6 +40,22 @@ struct Arguments {
     /// Where to listen; port 0 takes a free one
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:61499")]
     listen: String,
+
+    /// Speaks TLS (wss://) and shows this certificate, PEM
+    #[arg(long, value_name = "FILE", requires = "key")]
+    cert: Option<PathBuf>,
+
+    /// The private key of --cert, PEM, not encrypted
+    #[arg(long, value_name = "FILE", requires = "cert")]
+    key: Option<PathBuf>,
+
+    /// Lets in only who shows a certificate that this authority signed, PEM
+    #[arg(long, value_name = "FILE", requires = "cert")]
+    client_ca: Option<PathBuf>,
+
+    /// Lets in only who shows the bearer token in this file
+    #[arg(long, value_name = "FILE")]
+    token_file: Option<PathBuf>,
 
     /// Plays the automation's side of a recorded trace instead of controlling
     ///
@@ -94,6 +112,9 @@ Examples:
   A runtime on a bad day:
     nxt-mock --plant depalletizer --fault late:80 --fault drop:10
 
+  Encrypted, for those alone who know the token:
+    nxt-mock --plant rig --cert server.pem --key server.key --token-file token
+
   The commands of yesterday's session again:
     nxt-mock --plant rig --trace yesterday.cps.jsonl";
 
@@ -118,13 +139,18 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     };
     let automation = Automation::new(map, control).map_err(|error| error.to_string())?;
     let faulty = Faulty::new(automation, &arguments.fault, arguments.seed);
-    let settings = ListenSettings::new(address(&arguments.listen)?);
+    let settings = ListenSettings {
+        tls: security::tls(arguments)?,
+        token: security::token(arguments)?,
+        ..ListenSettings::new(address(&arguments.listen)?)
+    };
+    let scheme = if settings.tls.is_some() { "wss" } else { "ws" };
     // The signals are caught before anybody is told where to connect.
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| format!("failed to wait for Ctrl-C: {error}"))?;
     let interrupted = runtime.block_on(async { interruption() })?;
     let server = Server::start(settings, faulty).map_err(|error| error.to_string())?;
-    say(&format!("nxt-mock controls {plant:?} on ws://{}\n", server.address()));
+    say(&format!("nxt-mock controls {plant:?} on {scheme}://{}\n", server.address()));
     runtime.block_on(interrupted);
     if let Some(statistics) = server.stop() {
         say(&summary(&statistics));
