@@ -24,5 +24,7 @@ pub mod signal_map;
 pub mod time;
 pub mod trace;
 pub mod value;
+#[cfg(feature = "view")]
+pub mod view;
 pub mod wire;
 pub mod xml;

@@ -243,7 +243,8 @@ fn the_withheld_plant_shares_nothing_with_the_diagnosis() {
 
 /// A text in backquotes that is a path of the project: it starts with one of our folders and names no placeholder.
 fn looks_like_our_path(text: &str) -> bool {
-    let folders = ["src/", "models/", "signals-maps/", "tests/", "benches/", "tools/", "docs/", "fuzz/", ".ci/"];
+    let folders =
+        ["src/", "view/", "models/", "signals-maps/", "tests/", "benches/", "tools/", "docs/", "fuzz/", ".ci/"];
     folders.iter().any(|folder| text.starts_with(folder))
         && !text.contains(|c: char| c.is_whitespace() || "<>*{}$…".contains(c))
         && !text.contains("NAME")

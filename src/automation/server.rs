@@ -81,6 +81,7 @@ pub struct Server {
 /// What a [`Server`] asks of its thread.
 enum Request {
     Statistics(std::sync::mpsc::Sender<Statistics>),
+    Tempo(f64),
     Stop,
 }
 
@@ -122,6 +123,13 @@ impl Server {
         replied.recv().ok()
     }
 
+    /// Lets the automation's clock go by at `rate` seconds a second from now on; at 0 it stands still, and messages are
+    /// handled all the same.
+    pub fn set_tempo(&self, rate: f64) {
+        // A thread that is no more has no clock.
+        let _ = self.requests.send(Request::Tempo(rate));
+    }
+
     /// Closes every connection and stops; `None` if its thread died.
     pub fn stop(self) -> Option<Statistics> {
         // A thread that is no more needs no request.
@@ -130,23 +138,52 @@ impl Server {
     }
 }
 
+/// The automation's clock: so many seconds to a second of the wall clock.
+struct Clock {
+    from: std::time::Instant,
+    /// What it showed then.
+    shown: Instant,
+    rate: f64,
+}
+
+impl Clock {
+    fn start() -> Clock {
+        Clock { from: std::time::Instant::now(), shown: Instant::ZERO, rate: 1.0 }
+    }
+
+    fn now(&self) -> Instant {
+        let elapsed = self.from.elapsed();
+        self.shown + if self.rate == 1.0 { elapsed } else { elapsed.mul_f64(self.rate) }
+    }
+
+    fn set_rate(&mut self, rate: f64) {
+        *self = Clock { shown: self.now(), from: std::time::Instant::now(), rate: rate.clamp(0.0, 1e6) };
+    }
+
+    /// When it will show `due`; `None` while it stands still.
+    fn to_system(&self, due: Instant) -> Option<std::time::Instant> {
+        let left = due.since(self.shown);
+        (self.rate > 0.0).then(|| self.from + if self.rate == 1.0 { left } else { left.div_f64(self.rate) })
+    }
+}
+
 /// What the server's main task owns.
 struct Hub {
     settings: ListenSettings,
     automation: Faulty,
-    start: std::time::Instant,
+    clock: Clock,
     connections: BTreeMap<ConnectionId, mpsc::Sender<Order>>,
     last: u64,
 }
 
 impl Hub {
     fn new(settings: ListenSettings, automation: Faulty) -> Hub {
-        Hub { settings, automation, start: std::time::Instant::now(), connections: BTreeMap::new(), last: 0 }
+        Hub { settings, automation, clock: Clock::start(), connections: BTreeMap::new(), last: 0 }
     }
 
-    /// Time since the start, the automation's clock.
+    /// The automation's clock.
     fn now(&self) -> Instant {
-        Instant::ZERO + self.start.elapsed()
+        self.clock.now()
     }
 
     async fn run(mut self, listener: std::net::TcpListener, mut asked: mpsc::UnboundedReceiver<Request>) -> Statistics {
@@ -160,7 +197,7 @@ impl Hub {
         };
         loop {
             self.deliver();
-            let alarm = self.automation.timeout().map(|due| self.start + due.since(Instant::ZERO));
+            let alarm = self.automation.timeout().and_then(|due| self.clock.to_system(due));
             let congested = self.automation.is_congested();
             tokio::select! {
                 Some(event) = arrivals.recv(), if !congested => self.arrived(event),
@@ -181,6 +218,7 @@ impl Hub {
                         // Whoever asked may have gone.
                         let _ = reply.send(self.automation.automation().statistics());
                     }
+                    Some(Request::Tempo(rate)) => self.clock.set_rate(rate),
                     Some(Request::Stop) | None => break,
                 },
             }

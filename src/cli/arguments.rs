@@ -1,5 +1,7 @@
 //! The words of the command line.
 
+#[cfg(feature = "view")]
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -11,6 +13,8 @@ use super::exam::ExamArguments;
 use super::experiment::ExperimentArguments;
 use super::locate::LocateArguments;
 use super::table::{ExportArguments, ImportArguments};
+#[cfg(feature = "view")]
+use super::view::{ViewArguments, parse_address};
 use crate::adapter::ParseEndpointError;
 use crate::run::{Connect, Speed};
 use crate::time::parse_duration;
@@ -35,6 +39,7 @@ const AFTER_HELP: &str = "\
 Durations are written with their unit: 20s, 500ms, 1.5s, 2m.
 
 Environment:
+  KINETWIN_VIEW_TOKEN  what writing to a page beyond this machine needs; made up and printed where it is not set
   KINETWIN_LOG    what is logged on standard error: automation=info, or debug for all of it; warnings alone by default
   KINETWIN_TOKEN  a bearer token for the server, where --token-file names none
   NO_COLOR        set to anything, neither the screen nor an error is coloured
@@ -50,6 +55,8 @@ pub enum Command {
     Check(CheckArguments),
     SignalsMap(SignalsMapArguments),
     Replay(ReplayArguments),
+    #[cfg(feature = "view")]
+    View(ViewArguments),
     /// Looks into recorded traces, cuts them, and makes them from tables and tables from them
     Trace {
         #[command(subcommand)]
@@ -123,6 +130,13 @@ pub struct RunArguments {
     /// Replaces the file of --record if there is one; without it, the run is refused
     #[arg(long, requires = "record")]
     pub force: bool,
+    /// Shows the run in the browser: serves a page with the plant, its signals and controls, and prints its address
+    ///
+    /// ADDR is PORT or HOST:PORT; a free port of this machine's loopback interface where it is left out. Beyond the
+    /// loopback interface, what changes something needs the token that is printed with the address, or KINETWIN_VIEW_TOKEN.
+    #[cfg(feature = "view")]
+    #[arg(long, value_name = "ADDR", num_args = 0..=1, require_equals = true, value_parser = parse_address)]
+    pub view: Option<Option<SocketAddr>>,
     /// Prints the summary as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -131,6 +145,7 @@ pub struct RunArguments {
 const RUN_HELP: &str = "\
 Examples:
   kinetwin run models/rig --for 5s
+  kinetwin run models/depalletizer --view
   kinetwin run models/depalletizer --connect ws://192.168.0.10:8080
   kinetwin run models/depalletizer --speed max --for 10m --seed 7 --json
   kinetwin run ./my-plant --record session.cps.jsonl.zst

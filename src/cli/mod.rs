@@ -23,6 +23,8 @@ mod signals;
 mod status;
 mod table;
 mod terminal;
+#[cfg(feature = "view")]
+mod view;
 mod words;
 
 use std::io::IsTerminal;
@@ -66,6 +68,8 @@ pub fn main() -> ExitCode {
         Some(Command::Trace { command: TraceCommand::Cut(arguments) }) => replay::cut(&arguments),
         Some(Command::Trace { command: TraceCommand::Import(arguments) }) => table::import(&arguments),
         Some(Command::Trace { command: TraceCommand::Export(arguments) }) => table::export(&arguments),
+        #[cfg(feature = "view")]
+        Some(Command::View(arguments)) => view::view(&arguments),
         Some(Command::Gap { command: GapCommand::Apply(arguments) }) => apply::apply(&arguments),
     };
     match answer {

@@ -1,5 +1,7 @@
 //! `kinetwin run`.
 
+#[cfg(feature = "view")]
+use std::net::SocketAddr;
 use std::time::Duration;
 
 use crossbeam::channel::{RecvTimeoutError, TryRecvError};
@@ -21,6 +23,11 @@ use crate::session::Limits;
 pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
     let options = options(arguments)?;
     let log = Log::begin();
+    #[cfg(feature = "view")]
+    if let Some(address) = &arguments.view {
+        let address = address.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
+        return end(arguments, &super::view::run_viewed(&options, address, arguments.json)?);
+    }
     let handle = run::start(&options)?;
     let interruption = Interruption::watch(handle.stopper())?;
     let screen = if arguments.json { None } else { Terminal::take()? };
@@ -28,15 +35,18 @@ pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
         Some(screen) => show(&handle, screen, &interruption, &log)?,
         None => tell(&handle),
     }
-    let summary = handle.finish()?;
+    end(arguments, &handle.finish()?)
+}
+
+fn end(arguments: &RunArguments, summary: &Summary) -> Result<Answer, Failure> {
     if arguments.json {
-        words::answer_line(serde_json::to_string(&summary)?)?;
+        words::answer_line(serde_json::to_string(summary)?)?;
     } else {
-        words::answer(report::text(&summary))?;
+        words::answer(report::text(summary))?;
     }
     match &summary.denied {
         Some(why) => Err(Failure(format!("error: {why}"))),
-        None => Ok(answer(&summary)),
+        None => Ok(answer(summary)),
     }
 }
 
@@ -72,7 +82,7 @@ fn show(handle: &Handle, mut screen: Terminal, interruption: &Interruption, log:
     loop {
         let now = clock.now();
         for line in log.take() {
-            status.note(Notice { at: now, gravity: Gravity::Warning, text: line });
+            status.note(Notice { at: now, gravity: Gravity::Warning, text: line, place: None });
         }
         let ended = loop {
             match handle.notices().try_recv() {
@@ -159,7 +169,7 @@ fn tell(handle: &Handle) {
     }
 }
 
-fn say(notice: &Notice) {
+pub fn say(notice: &Notice) {
     let gravity = match notice.gravity {
         Gravity::Information => "",
         Gravity::Warning => "warning: ",

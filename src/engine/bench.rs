@@ -129,7 +129,7 @@ impl Driven {
         Driven { engine, map: plant.signal_map.clone(), inputs: Vec::new() }
     }
 
-    fn register(&self, name: &str) -> RegisterId {
+    pub fn register(&self, name: &str) -> RegisterId {
         self.map.register(name).unwrap_or_else(|| panic!("no signal {name}"))
     }
 

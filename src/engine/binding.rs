@@ -66,14 +66,25 @@ impl CommandTable {
         self.rows[register.index()].targets.push(target);
     }
 
-    /// What a value for `register` becomes: as the register keeps it, and as the devices take it, in SI units. `None` for a
-    /// register that takes no commands, and for what is no finite number.
-    pub fn convert(&self, register: RegisterId, value: &Value) -> Option<(Value, f64)> {
-        let row = self.rows.get(register.index()).filter(|row| row.is_command)?;
+    /// Whether the automation sets `register`.
+    pub fn is_command(&self, register: RegisterId) -> bool {
+        self.rows.get(register.index()).is_some_and(|row| row.is_command)
+    }
+
+    /// What a value for `register` becomes whoever sets it; see [`CommandTable::convert`].
+    pub fn fit(&self, register: RegisterId, value: &Value) -> Option<(Value, f64)> {
+        let row = self.rows.get(register.index())?;
         let number = value.to_f64().filter(|number| number.is_finite())?;
         let kept = Value::from_f64(row.element, number);
         let number = kept.to_f64()?;
         Some((kept, if row.unit.to_si == 1.0 { number } else { to_si(number, row.unit) }))
+    }
+
+    /// What a value for `register` becomes: as the register keeps it, and as the devices take it, in SI units. `None` for a
+    /// register that takes no commands, and for what is no finite number.
+    pub fn convert(&self, register: RegisterId, value: &Value) -> Option<(Value, f64)> {
+        self.rows.get(register.index()).filter(|row| row.is_command)?;
+        self.fit(register, value)
     }
 
     /// The ports that `register` commands.

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use super::binding::{CommandTable, ReportPort, Target};
 use super::floor::{Bay, BeltBody, CupsBody, Drain, Floor, PlateBody};
+use super::operate::Operated;
 use super::ties::{self, Ties};
 use super::{Engine, Mount, Unit, UnitBody};
 use crate::device::{self, Belt, Cups, Device, Role, Surface as DeviceSurface};
@@ -97,7 +98,15 @@ impl Engine {
                     }
                 }
                 let body = builder.add(instance, units.len(), device.as_ref())?;
-                units.push(Unit { device, ports: task.kind.ports.len(), reports, body, ties: Ties::default() });
+                units.push(Unit {
+                    instance: instance.name.clone(),
+                    kind: task.kind,
+                    device,
+                    ports: task.kind.ports.len(),
+                    reports,
+                    body,
+                    ties: Ties::default(),
+                });
             }
         }
         builder.connect(plant, &mut units)?;
@@ -117,6 +126,7 @@ impl Engine {
             floor,
             stage: None,
             scratch: vec![0.0; room],
+            operated: Operated::default(),
         };
         engine.frames.resolve();
         engine.place_bodies();

@@ -52,6 +52,10 @@ impl Engine {
             device.state(&mut |number| hash.number(number));
         }
         self.hash_parts(&mut hash);
+        for held in self.held() {
+            hash.whole(u64::from(held.signal.0) + 1);
+        }
+        self.dead_drives().for_each(|name| hash.bytes(name.as_bytes()));
         hash.0
     }
 

@@ -15,6 +15,10 @@ mod build;
 mod effect_tests;
 mod floor;
 mod hash;
+mod load;
+mod operate;
+#[cfg(test)]
+mod operate_tests;
 mod stage;
 #[cfg(test)]
 mod stage_tests;
@@ -26,15 +30,18 @@ use std::time::Duration;
 
 pub use build::BuildError;
 pub use floor::{Incident, IncidentKind, PartCounts};
+pub use operate::{Act, ActError, Fault, Held, Insertion};
 
 use crate::device::{Device, Role, Surroundings};
 use crate::kinematics::{DPose3, DQuat, DVec3, FrameId, FrameTree};
 use crate::plant::PartKind;
+use crate::prototype::kind::KindDescriptor;
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
 use crate::value::Value;
 use binding::{CommandTable, ReportPort};
 use floor::Floor;
+use operate::Operated;
 use stage::Stage;
 use ties::Ties;
 
@@ -53,10 +60,15 @@ pub struct Engine {
     stage: Option<Stage>,
     /// Room for one device's reports.
     scratch: Vec<f64>,
+    /// What an operator has done.
+    operated: Operated,
 }
 
 /// A device with what binds it to the registers and to the floor.
 struct Unit {
+    /// The instance that it belongs to.
+    instance: String,
+    kind: &'static KindDescriptor,
     device: Box<dyn Device>,
     ports: usize,
     reports: Vec<ReportPort>,
@@ -165,11 +177,12 @@ impl Engine {
     }
 
     fn actuators(&mut self, inputs: &[(RegisterId, Value)]) {
-        for (register, value) in inputs {
+        // A message that is lost takes with it what arrived in the same step.
+        let lost = !inputs.is_empty() && std::mem::take(&mut self.operated.loses);
+        for (register, value) in inputs.iter().filter(|_| !lost) {
             let Some((value, number)) = self.commands.convert(*register, value) else { continue };
-            self.registers[register.index()] = value;
-            for target in self.commands.targets(*register) {
-                self.units[target.unit].device.command(target.port, number);
+            if !self.operated.withholds(*register, &value) {
+                self.set_command(*register, value, number);
             }
         }
         self.close_mounted();
@@ -199,6 +212,7 @@ impl Engine {
                 self.registers[port.register.index()] = port.value(reports[port.port]);
             }
         }
+        self.operated.cover(&mut self.registers);
     }
 
     fn joints(&mut self, span: Duration) {

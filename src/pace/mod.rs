@@ -15,4 +15,4 @@ mod simulation;
 pub use bell::{Bell, Ears, Listener, bell};
 pub use clock::WallClock;
 pub use exchange::{Exchange, Rates, drive};
-pub use simulation::{Journal, NoJournal, Simulation, Timing};
+pub use simulation::{Journal, Next, NoJournal, Simulation, Timing};

@@ -1,6 +1,5 @@
 //! The simulation thread's loop: one step after the other, on the wall clock or as a caller says.
 
-use std::ops::ControlFlow;
 use std::time::Duration;
 
 use hdrhistogram::Histogram;
@@ -8,7 +7,7 @@ use hdrhistogram::Histogram;
 use super::bell::Bell;
 use super::clock::WallClock;
 use crate::bank::SimulationSide;
-use crate::engine::{Engine, Incident};
+use crate::engine::{Act, ActError, Engine, Incident};
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
 use crate::value::Value;
@@ -17,6 +16,9 @@ use crate::value::Value;
 pub trait Journal: Send {
     /// The step at the simulated time `at` took the messages up to `number`. Must not wait.
     fn taken(&mut self, number: u64, at: Instant);
+
+    /// Before the step at the simulated time `at`, an operator did this: one JSON object. Must not wait.
+    fn operated(&mut self, _at: Instant, _deed: String) {}
 }
 
 /// A journal that nobody reads.
@@ -76,6 +78,17 @@ impl Simulation {
         self.engine.take_incidents()
     }
 
+    /// Does an operator's `act` before the next step, and has it recorded as `deed`; without an act, something is recorded
+    /// that is none on the plant.
+    ///
+    /// # Errors
+    /// It cannot be done: nothing has changed, nothing is recorded.
+    pub fn operate(&mut self, act: Option<&Act>, deed: String) -> Result<(), ActError> {
+        act.map_or(Ok(()), |act| self.engine.operate(act))?;
+        self.journal.operated(self.engine.now(), deed);
+        Ok(())
+    }
+
     /// How the steps went so far.
     pub fn timing(&self) -> &Timing {
         &self.timing
@@ -100,35 +113,76 @@ impl Simulation {
         self.timing.overruns += u64::from(spent > self.engine.step());
     }
 
-    /// Steps on the wall clock, `speed` simulated seconds to a second, until `after`, which sees the simulation after each
-    /// step, breaks. Sleeps between steps, and never spins.
+    /// Steps on the wall clock, `speed` simulated seconds to a second, until `after`, which sees the simulation before the
+    /// first step, after each step, and after each wait that it asked for, says that it is the end. Sleeps between steps, and
+    /// never spins.
     ///
     /// Where a step began late, those after it follow at once until the schedule is kept again: simulated time is never
-    /// let go of.
-    pub fn pace(&mut self, speed: f64, mut after: impl FnMut(&mut Simulation) -> ControlFlow<()>) {
+    /// let go of. After a wait, and with another speed, the schedule begins anew.
+    pub fn pace(&mut self, speed: f64, mut after: impl FnMut(&mut Simulation) -> Next) {
         sharpen_sleep();
         let clock = WallClock::start();
-        let period = self.engine.step().div_f64(speed);
+        let step = self.engine.step();
+        let mut schedule = Schedule { from: clock.now(), steps: 0, period: step.div_f64(speed) };
         let mut owed_by_us = false;
-        for k in 0u64.. {
-            let due = Instant::ZERO + Duration::from_secs_f64(k as f64 * period.as_secs_f64());
+        loop {
+            match after(self) {
+                Next::Step => {}
+                Next::At(speed) => {
+                    schedule = Schedule { from: clock.now(), steps: 0, period: step.div_f64(speed) };
+                    owed_by_us = false;
+                }
+                Next::Wait(span) => {
+                    std::thread::sleep(span);
+                    schedule = Schedule { from: clock.now(), steps: 0, ..schedule };
+                    owed_by_us = false;
+                    continue;
+                }
+                Next::End => return,
+            }
+            let due = schedule.due();
             let ahead = due.since(clock.now());
             if !ahead.is_zero() {
                 std::thread::sleep(ahead);
             }
             let late = clock.now().since(due);
-            if late < period {
+            if late < schedule.period {
                 owed_by_us = false;
             } else if !owed_by_us {
                 self.timing.late_steps += 1;
             }
             let overruns = self.timing.overruns;
             self.step();
+            schedule.steps += 1;
             owed_by_us |= self.timing.overruns > overruns;
-            if after(self).is_break() {
-                return;
-            }
         }
+    }
+}
+
+/// What comes after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Next {
+    /// The next one, when it is due.
+    Step,
+    /// The next one, and from here on so many simulated seconds to a second.
+    At(f64),
+    /// Nothing for so long; then `after` is asked again.
+    Wait(Duration),
+    /// Nothing.
+    End,
+}
+
+/// When steps are due.
+struct Schedule {
+    from: Instant,
+    /// Steps made since.
+    steps: u64,
+    period: Duration,
+}
+
+impl Schedule {
+    fn due(&self) -> Instant {
+        self.from + Duration::from_secs_f64(self.steps as f64 * self.period.as_secs_f64())
     }
 }
 

@@ -33,9 +33,10 @@ pub use report::{EdgeReport, LevelReport, Report};
 pub use survey::Survey;
 
 use crate::bank::{self, Full};
-use crate::engine::Engine;
+use crate::engine::{Act, Engine};
 use crate::signal_map::{Direction, Kind, RegisterId, SignalMap};
 use crate::time::Instant;
+use crate::trace::operator::Deed;
 use crate::trace::{Body, Line, Reader, Sender, TraceError};
 use crate::value::Value;
 use crate::wire::{Message, TextForm, read_value};
@@ -101,6 +102,18 @@ pub fn run<R: BufRead>(
     reader: Reader<R>,
     tolerances: &Tolerances,
 ) -> Result<Report, ReplayError> {
+    watched(engine, map, survey, reader, tolerances, |_| {})
+}
+
+/// Replays as [`run`] does; `watch` sees the engine after each tick.
+pub fn watched<R: BufRead>(
+    engine: &mut Engine,
+    map: &Arc<SignalMap>,
+    survey: &Survey,
+    reader: Reader<R>,
+    tolerances: &Tolerances,
+    mut watch: impl FnMut(&mut Engine),
+) -> Result<Report, ReplayError> {
     if engine.steps() != 0 {
         return Err(ReplayError::Started { steps: engine.steps() });
     }
@@ -112,6 +125,7 @@ pub fn run<R: BufRead>(
     lines.advance(&mut replay)?;
     while let Some(at) = lines.at() {
         replay.step(engine, at, &mut lines)?;
+        watch(engine);
     }
     if replay.lines != survey.lines() {
         return Err(ReplayError::Changed);
@@ -126,6 +140,8 @@ enum Meaning {
     Commands(Vec<(RegisterId, Value)>),
     /// Reports, by their registers.
     Reports(Vec<(RegisterId, Value)>),
+    /// What an operator did.
+    Deed(Act),
     Nothing,
 }
 
@@ -231,8 +247,13 @@ impl<'a> Replay<'a> {
                 self.notices.add(format!("a message that was refused is left out: {reason}"));
                 Meaning::Nothing
             }
-            (Body::Event(_), Sender::Operator) => {
-                self.notices.add("what an operator did is left out: replays do not obey it yet".to_owned());
+            (Body::Event(event), Sender::Operator) => {
+                match Deed::read(event.text()).and_then(|deed| deed.act(self.map)) {
+                    Ok(Some(act)) => return Meaning::Deed(act),
+                    // A pause or a speed: nothing about the plant.
+                    Ok(None) => {}
+                    Err(error) => self.notices.add(format!("what an operator did was left out: {error}")),
+                }
                 Meaning::Nothing
             }
             _ => Meaning::Nothing,
@@ -255,6 +276,11 @@ impl<'a> Replay<'a> {
                         self.io.stage(&values).map_err(|source| ReplayError::Queue { line, source })?;
                     }
                     Some((_, Meaning::Reports(values))) => reports.push(values),
+                    Some((_, Meaning::Deed(act))) => {
+                        if let Err(error) = engine.operate(&act) {
+                            self.notices.add(format!("what an operator did could not be done again: {error}"));
+                        }
+                    }
                     _ => {}
                 }
             }

@@ -10,6 +10,10 @@
 //! take turns on one thread, in lock-step and in memory: each step waits until the automation has handled what was sent.
 
 mod ask;
+pub mod control;
+#[cfg(test)]
+mod control_tests;
+mod ledger;
 pub mod live;
 pub mod model;
 mod notice;
@@ -32,15 +36,17 @@ use crate::automation;
 use crate::engine::BuildError;
 use crate::pace::Rates;
 use crate::plant::{ModelError, Plant};
+use crate::scene::Scene;
 
 pub use ask::{Asked, ask};
 pub use notice::{Gravity, Notice};
 pub use observe::observe;
 pub use options::{Connect, Options, RecordTo, Speed};
-pub use recording::date_and_time;
+pub use recording::{RecordControl, Recorded, date_and_time};
 pub use stepped::Stepper;
 pub use summary::{Quantiles, Summary};
 
+use control::Controls;
 use live::{ExchangeFrame, SimulationFrame, Viewer};
 use model::MapState;
 
@@ -165,12 +171,32 @@ pub struct Handle {
     notices: Receiver<Notice>,
     simulation: Viewer<SimulationFrame>,
     exchange: Viewer<ExchangeFrame>,
-    round_trip: Box<dyn Fn() -> Quantiles + Send>,
+    round_trip: Arc<dyn Fn() -> Quantiles + Send + Sync>,
+    steering: Option<Steering>,
     /// Waits for the run's threads, and sums up.
     end: Box<dyn FnOnce() -> Result<Summary, RunError> + Send>,
 }
 
+/// What steers a run whose options ask for control.
+#[derive(Clone)]
+pub struct Steering {
+    /// What the plant looks like; the pictures have its poses.
+    pub scene: Arc<Scene>,
+    pub controls: Controls,
+    pub record: RecordControl,
+    /// Lets the clock of the embedded automation go by with simulated time: so many seconds to a second. Nothing where the
+    /// automation is not ours, or is in lock-step anyway.
+    pub tempo: Arc<dyn Fn(f64) + Send + Sync>,
+    /// The round trip so far; see [`Handle::round_trip`].
+    pub round_trip: Arc<dyn Fn() -> Quantiles + Send + Sync>,
+}
+
 impl Handle {
+    /// What steers it, where its options asked for that.
+    pub fn steering(&self) -> Option<Steering> {
+        self.steering.clone()
+    }
+
     /// What does not change.
     pub fn facts(&self) -> &Facts {
         &self.facts
@@ -204,7 +230,7 @@ impl Handle {
     /// Waits for the end of the run.
     pub fn finish(self) -> Result<Summary, RunError> {
         // The end waits for threads that may ask for these.
-        drop((self.round_trip, self.notices));
+        drop((self.round_trip, self.steering, self.notices));
         (self.end)()
     }
 }

@@ -3,18 +3,20 @@
 use std::time::Duration;
 
 use crate::adapter::Event;
-use crate::engine::Incident;
+use crate::engine::{Incident, IncidentKind};
 use crate::session::{ClientEvent, Ending};
 use crate::time::{Instant, format_duration};
 use crate::wire::Fault;
 
 /// Something that happened.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Notice {
     /// When, on the run's wall clock.
     pub at: Instant,
     pub gravity: Gravity,
     pub text: String,
+    /// Where in the plant, m; of what befell a part.
+    pub place: Option<[f64; 3]>,
 }
 
 /// How much it matters.
@@ -44,12 +46,13 @@ pub(super) fn notice(event: &Event, now: Instant) -> Option<Notice> {
             format!("lost {values} values: they came faster than the simulation takes them; the connection is closed"),
         ),
     };
-    Some(Notice { at: now, gravity, text })
+    Some(Notice { at: now, gravity, text, place: None })
 }
 
 /// What went wrong with a part, told at `now`.
 pub(super) fn incident(incident: &Incident, now: Instant) -> Notice {
-    Notice { at: now, gravity: Gravity::Warning, text: incident.to_string() }
+    let (IncidentKind::Lost { place, .. } | IncidentKind::Collision { place, .. }) = incident.kind;
+    Notice { at: now, gravity: Gravity::Warning, text: incident.to_string(), place: Some(place) }
 }
 
 fn session(event: &ClientEvent, now: Instant) -> Option<(Gravity, String)> {

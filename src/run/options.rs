@@ -31,6 +31,8 @@ pub struct Options {
     pub seed: u64,
     /// Where to record the session.
     pub record: Option<RecordTo>,
+    /// Whether it can be controlled while it goes on; see [`control`](super::control).
+    pub controlled: bool,
     /// How long an answer of the automation may take.
     pub timeout: Option<Duration>,
     /// The longest message that is taken in, bytes.
@@ -61,6 +63,12 @@ pub enum Speed {
     Max,
 }
 
+impl Default for Speed {
+    fn default() -> Speed {
+        Speed::Wall(1.0)
+    }
+}
+
 /// A file to record to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordTo {
@@ -85,6 +93,7 @@ impl Options {
             speed: Speed::Wall(1.0),
             seed: 0,
             record: None,
+            controlled: false,
             timeout: None,
             max_message: Settings::MAX_MESSAGE,
             limits: Limits::default(),

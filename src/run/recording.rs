@@ -10,26 +10,62 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, SyncSender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
+use std::sync::{Arc, OnceLock};
 use std::thread::{self, JoinHandle};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossbeam::queue::SegQueue;
 
+use super::ledger::{Ledger, partial};
 use super::{Facts, Options, RecordTo, RunError, model};
 use crate::adapter::Witness;
 use crate::pace::{Journal, NoJournal};
 use crate::time::Instant;
 use crate::trace::{Compression, Header, Record, Recorder, Sender, Source, Writer};
 
+/// How long the recorder sleeps until it looks for orders although nobody woke it.
+const LOOK: Duration = Duration::from_millis(50);
+
 /// A recording that goes on; nothing where none was asked for.
 pub(super) struct Recording(Option<Writing>);
 
 struct Writing {
-    path: PathBuf,
-    partial: PathBuf,
-    thread: JoinHandle<io::Result<()>>,
+    /// `None` where traces are begun and ended on demand.
+    path: Option<PathBuf>,
+    thread: JoinHandle<io::Result<Option<PathBuf>>>,
+}
+
+/// Begins and ends traces while a run goes on.
+#[derive(Clone)]
+pub struct RecordControl {
+    orders: Arc<SegQueue<RecordOrder>>,
+}
+
+/// How a [`RecordControl`]'s order ended: the file that was begun, or ended.
+pub type Recorded = Arc<OnceLock<Result<Option<PathBuf>, String>>>;
+
+enum RecordOrder {
+    Begin(PathBuf, Recorded),
+    End(Recorded),
+}
+
+impl RecordControl {
+    /// Begins a trace; one that is being written is ended first. A file that is there already is refused.
+    pub fn begin(&self, path: PathBuf) -> Recorded {
+        self.give(|recorded| RecordOrder::Begin(path, recorded))
+    }
+
+    /// Ends the trace that is being written.
+    pub fn end(&self) -> Recorded {
+        self.give(RecordOrder::End)
+    }
+
+    fn give(&self, order: impl FnOnce(Recorded) -> RecordOrder) -> Recorded {
+        let recorded = Recorded::default();
+        self.orders.push(order(Arc::clone(&recorded)));
+        recorded
+    }
 }
 
 /// The IO thread's end.
@@ -52,18 +88,78 @@ pub(super) fn start(options: &Options, facts: &Facts) -> Result<(Recording, Tap,
         return Err(RunError::RecordingExists(path));
     }
     let fail = |error: io::Error| RunError::Recording { path: path.clone(), reason: error.to_string() };
-    let mut partial = path.clone().into_os_string();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
+    let partial = partial(&path);
     let file = BufWriter::with_capacity(1 << 16, File::create(&partial).map_err(fail)?);
     let writer = Writer::new(file, Compression::of(&path.to_string_lossy()), &header(facts)).map_err(fail)?;
     let queue = Arc::new(SegQueue::new());
     let (wake, woken) = mpsc::sync_channel(1);
     let records = Arc::clone(&queue);
-    let write = move || write(Recorder::new(writer), &records, &woken);
+    let whole = path.clone();
+    let write = move || {
+        write(Recorder::new(writer), &records, &woken, || {})?.flush()?;
+        rename(&partial, &whole)?;
+        Ok(Some(whole))
+    };
     let thread = thread::Builder::new().name("recorder".to_owned()).spawn(write).map_err(RunError::Thread)?;
     let tap = Tap(Some(Telling { queue: Arc::clone(&queue), wake }));
-    Ok((Recording(Some(Writing { path, partial, thread })), tap, Box::new(Chronicle(queue))))
+    Ok((Recording(Some(Writing { path: Some(path), thread })), tap, Box::new(Chronicle(queue))))
+}
+
+/// Begins to listen, so that traces can be begun and ended while the run goes on; where `options` ask for a recording, it is
+/// begun at once.
+pub(super) fn listen(
+    options: &Options,
+    facts: &Facts,
+) -> Result<(Recording, Tap, Box<dyn Journal>, RecordControl), RunError> {
+    let header = header(facts);
+    let queue = Arc::new(SegQueue::new());
+    let (wake, woken) = mpsc::sync_channel(1);
+    let control = RecordControl { orders: Arc::new(SegQueue::new()) };
+    let (records, orders) = (Arc::clone(&queue), Arc::clone(&control.orders));
+    let first = options.record.clone();
+    if let Some(RecordTo { path, replace: false }) = &first
+        && path.exists()
+    {
+        return Err(RunError::RecordingExists(path.clone()));
+    }
+    let path = first.as_ref().map(|record| record.path.clone());
+    let (begun, is_begun) = mpsc::sync_channel(1);
+    let write = move || {
+        let ledger = Ledger::new(header.clone());
+        let begin = first.map_or(Ok(()), |record| ledger.begin(&record.path));
+        let failed = begin.is_err();
+        // Who started the run waits for this.
+        let _ = begun.send(begin);
+        if failed {
+            return Ok(None);
+        }
+        let writer = Writer::new(ledger.clone(), Compression::None, &header)?;
+        write(Recorder::new(writer), &records, &woken, || obey(&ledger, &orders))?;
+        ledger.end()
+    };
+    let thread = thread::Builder::new().name("recorder".to_owned()).spawn(write).map_err(RunError::Thread)?;
+    if let (Ok(Err(error)), Some(path)) = (is_begun.recv(), &path) {
+        return Err(RunError::Recording { path: path.clone(), reason: error.to_string() });
+    }
+    let tap = Tap(Some(Telling { queue: Arc::clone(&queue), wake }));
+    Ok((Recording(Some(Writing { path, thread })), tap, Box::new(Chronicle(queue)), control))
+}
+
+/// Begins and ends traces as ordered.
+fn obey(ledger: &Ledger, orders: &SegQueue<RecordOrder>) {
+    while let Some(order) = orders.pop() {
+        let (done, recorded) = match order {
+            RecordOrder::Begin(path, recorded) if path.exists() => {
+                (Err(io::Error::other(format!("{} is there already; choose another file", path.display()))), recorded)
+            }
+            RecordOrder::Begin(path, recorded) => {
+                (ledger.end().and_then(|_| ledger.begin(&path)).map(|()| Some(path)), recorded)
+            }
+            RecordOrder::End(recorded) => (ledger.end(), recorded),
+        };
+        // Nobody else answers this one.
+        let _ = recorded.set(done.map_err(|error| error.to_string()));
+    }
 }
 
 fn header(facts: &Facts) -> Header {
@@ -79,34 +175,40 @@ fn header(facts: &Facts) -> Header {
     }
 }
 
-/// Writes what comes until nothing more will.
-fn write(mut recorder: Recorder<BufWriter<File>>, records: &SegQueue<Record>, woken: &Receiver<()>) -> io::Result<()> {
+/// Writes what comes until nothing more will; does what is left to do after each time.
+fn write<W: Write>(
+    mut recorder: Recorder<W>,
+    records: &SegQueue<Record>,
+    woken: &Receiver<()>,
+    mut after: impl FnMut(),
+) -> io::Result<W> {
     let mut written = Ok(());
     loop {
-        // Looked at before the queue is emptied: what the tap put there before it went is taken below.
-        let is_over = woken.recv().is_err();
+        // Looked at before the queue is emptied: what the tap put there before it went is taken below. Orders wake nobody.
+        let is_over = matches!(woken.recv_timeout(LOOK), Err(RecvTimeoutError::Disconnected));
         while let Some(record) = records.pop() {
             // After a failure the queue must not grow: it is emptied all the same.
             if written.is_ok() {
                 written = recorder.record(record);
             }
         }
+        after();
         if is_over {
             break;
         }
     }
     written?;
-    recorder.finish()?.flush()
+    recorder.finish()
 }
 
 impl Recording {
     /// Ends the recording, once its tap and its journal are gone. The file that was written.
     pub fn finish(self) -> Result<Option<String>, RunError> {
-        let Some(Writing { path, partial, thread }) = self.0 else { return Ok(None) };
+        let Some(Writing { path, thread }) = self.0 else { return Ok(None) };
         let written = thread.join().map_err(|_| RunError::Died("recorder's"))?;
-        let named = written.and_then(|()| rename(&partial, &path));
-        named.map_err(|error| RunError::Recording { path: path.clone(), reason: error.to_string() })?;
-        Ok(Some(path.to_string_lossy().into_owned()))
+        let path = path.unwrap_or_default();
+        let written = written.map_err(|error| RunError::Recording { path, reason: error.to_string() })?;
+        Ok(written.map(|path| path.to_string_lossy().into_owned()))
     }
 }
 
@@ -148,6 +250,10 @@ impl Witness for Tap {
 impl Journal for Chronicle {
     fn taken(&mut self, number: u64, at: Instant) {
         self.0.push(Record::Taken { at, number });
+    }
+
+    fn operated(&mut self, at: Instant, deed: String) {
+        self.0.push(Record::Event { at, from: Sender::Operator, event: deed });
     }
 }
 

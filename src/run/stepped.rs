@@ -12,18 +12,20 @@ use std::thread;
 
 use crossbeam::channel::bounded;
 
+use super::control::{self, Desk};
 use super::live::{self, ExchangeFrame, SimulationFrame};
 use super::notice::{incident, notice};
-use super::recording::{self, Recording, Tap};
+use super::recording::{self, RecordControl, Recording, Tap};
 use super::summary::{Simulated, Spoken};
-use super::wall::NOTICES;
-use super::{Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Stop, Summary, model};
+use super::wall::{NOTICES, show};
+use super::{Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Speed, Steering, Stop, Summary, model};
 use crate::adapter::{Adapter, Endpoint, FromPeer, InProcess, Peer};
 use crate::automation::{Automation, ConnectionId, Control, Output};
 use crate::bank;
 use crate::engine::Engine;
-use crate::pace::{Exchange, Simulation, WallClock};
+use crate::pace::{Exchange, Next, Simulation, WallClock};
 use crate::plant::Plant;
+use crate::scene::Scene;
 use crate::session::Input;
 use crate::time::Instant;
 
@@ -33,6 +35,8 @@ pub struct Stepper {
     simulation: Simulation,
     exchange: Exchange<InProcess<Embedded>, Tap>,
     recording: Recording,
+    record: Option<RecordControl>,
+    scene: Option<Arc<Scene>>,
     clock: WallClock,
     spoken: Spoken,
     notices: Vec<Notice>,
@@ -48,20 +52,29 @@ impl Stepper {
     }
 
     pub(super) fn of(options: &Options, plant: Arc<Plant>) -> Result<Stepper, RunError> {
-        let engine = model::engine(&plant, options.step, options.seed)?;
+        let mut engine = model::engine(&plant, options.step, options.seed)?;
+        let scene = options.controlled.then(|| show(&mut engine, &plant));
         let automation = Automation::new(plant.signal_map.clone(), Control::ByPlant)?;
         let mut connector = InProcess::to(Embedded { automation, connection: ConnectionId(0) });
         connector.configure(options.settings(&plant, Endpoint::new("localhost", 1)))?;
         connector.init(&plant.signal_map);
         connector.connect();
         let facts = Facts::new(options, plant, ServerPlace::Memory);
-        let (recording, tap, journal) = recording::start(options, &facts)?;
+        let ((recording, tap, journal), record) = match options.controlled {
+            false => (recording::start(options, &facts)?, None),
+            true => {
+                let (recording, tap, journal, record) = recording::listen(options, &facts)?;
+                ((recording, tap, journal), Some(record))
+            }
+        };
         let (simulation_side, io_side) = bank::new(&facts.plant.signal_map);
         let mut stepper = Stepper {
             simulation: Simulation::new(engine, simulation_side, None, journal),
             exchange: Exchange::new(connector, io_side, tap, facts.rates),
             facts,
             recording,
+            record,
+            scene,
             clock: WallClock::start(),
             spoken: Spoken::default(),
             notices: Vec::new(),
@@ -118,6 +131,15 @@ const STEPS_A_LOOK: u64 = 64;
 /// Starts a run of `plant` as fast as possible, on a thread of its own.
 pub(super) fn start(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunError> {
     let stepper = Stepper::of(options, plant)?;
+    let (controls, desk) = stepper.record.is_some().then(|| control::desk(options.speed)).unzip();
+    let ends = controls.zip(stepper.record.clone()).zip(stepper.scene.clone());
+    let steering = ends.map(|((controls, record), scene)| Steering {
+        scene,
+        controls,
+        record,
+        tempo: Arc::new(|_| {}),
+        round_trip: Arc::new(Quantiles::default),
+    });
     let facts = stepper.facts.clone();
     let stop = Stop::default();
     let (say, notices) = bounded(NOTICES);
@@ -128,10 +150,14 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunE
         let mut stepper = stepper;
         let mut shown = Instant::ZERO;
         let mut frame = SimulationFrame::default();
+        let mut tempo = Tempo { desk, kept: None };
         while steps.is_none_or(|steps| stepper.simulation.timing().steps < steps) && !asked.is_asked() {
+            if !tempo.keep(&mut stepper) {
+                continue;
+            }
             stepper.step();
             stepper.notices.drain(..).for_each(|notice| drop(say.try_send(notice)));
-            if !stepper.simulation.timing().steps.is_multiple_of(STEPS_A_LOOK) {
+            if tempo.kept.is_none() && !stepper.simulation.timing().steps.is_multiple_of(STEPS_A_LOOK) {
                 continue;
             }
             let now = stepper.clock.now();
@@ -152,9 +178,39 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunE
         notices,
         simulation: simulation_viewer,
         exchange: exchange_viewer,
-        round_trip: Box::new(Quantiles::default),
+        round_trip: Arc::new(Quantiles::default),
+        steering,
         end: Box::new(move || thread.join().unwrap_or(Err(RunError::Died("simulation")))),
     })
+}
+
+/// How a controlled run in lock-step keeps to the wall clock where it was given a speed.
+struct Tempo {
+    desk: Option<Desk>,
+    /// The speed, and where it was begun to be kept: on the wall clock, and in simulated time.
+    kept: Option<(f64, Instant, Instant)>,
+}
+
+impl Tempo {
+    /// Does what was ordered, and waits until the next step is due. Whether it is to be made.
+    fn keep(&mut self, stepper: &mut Stepper) -> bool {
+        let Some(desk) = &mut self.desk else { return true };
+        let (simulation, clock) = (&mut stepper.simulation, stepper.clock);
+        if let Next::Wait(span) = desk.attend(simulation) {
+            thread::sleep(span);
+            self.kept = None;
+            return false;
+        }
+        let Speed::Wall(speed) = desk.speed() else {
+            self.kept = None;
+            return true;
+        };
+        let now = simulation.engine().now();
+        let kept = self.kept.filter(|(kept, ..)| *kept == speed);
+        let (_, wall, simulated) = *self.kept.insert(kept.unwrap_or((speed, clock.now(), now)));
+        thread::sleep((wall + now.since(simulated).div_f64(speed)).since(clock.now()));
+        true
+    }
 }
 
 /// The automation as a peer in memory.

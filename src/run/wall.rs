@@ -1,24 +1,28 @@
 //! A run on the wall clock: a thread that simulates, one that speaks with the automation, and the automation's own.
 
 use std::io;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use crossbeam::channel::{Sender, bounded};
 
+use super::control::{self, Desk};
 use super::live::{self, ExchangeFrame, Publisher, SimulationFrame};
 use super::notice::{incident, notice};
 use super::recording::{self, Tap};
 use super::summary::{Simulated, Spoken};
-use super::{Connect, Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Stop, Summary, model};
+use super::{
+    Connect, Facts, Handle, Notice, Options, Quantiles, RunError, ServerPlace, Steering, Stop, Summary, model,
+};
 use crate::adapter::{Adapter, Endpoint, WebSocketConnector};
 use crate::automation::server::{ListenSettings, Server};
 use crate::automation::{Automation, Control, Faulty};
 use crate::bank;
-use crate::pace::{Exchange, Listener, Simulation, WallClock, bell, drive};
+use crate::engine::Engine;
+use crate::pace::{Exchange, Listener, Next, Simulation, WallClock, bell, drive};
 use crate::plant::Plant;
+use crate::scene::Scene;
 
 /// Notices that may wait to be read. A server that sends nothing but garbage must not fill the memory with complaints.
 pub(super) const NOTICES: usize = 1_024;
@@ -28,7 +32,8 @@ pub(super) const FRAME_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Starts a run of `plant` at `speed` simulated seconds a second.
 pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, speed: f64) -> Result<Handle, RunError> {
-    let engine = model::engine(&plant, options.step, options.seed)?;
+    let mut engine = model::engine(&plant, options.step, options.seed)?;
+    let scene = options.controlled.then(|| show(&mut engine, &plant));
     let (server, endpoint, place) = reach(connect, &plant)?;
     let mut connector = WebSocketConnector::new();
     connector.configure(options.settings(&plant, endpoint))?;
@@ -36,7 +41,14 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
     connector.connect();
     let facts = Facts::new(options, plant, place);
     let (bell, listener) = bell().map_err(RunError::Thread)?;
-    let (recording, tap, journal) = recording::start(options, &facts)?;
+    let ((recording, tap, journal), record) = match options.controlled {
+        false => (recording::start(options, &facts)?, None),
+        true => {
+            let (recording, tap, journal, record) = recording::listen(options, &facts)?;
+            ((recording, tap, journal), Some(record))
+        }
+    };
+    let (controls, desk) = record.is_some().then(|| control::desk(options.speed)).unzip();
 
     let (simulation_side, io_side) = bank::new(&facts.plant.signal_map);
     let stop = Stop::default();
@@ -58,16 +70,29 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
         stop: stop.clone(),
         steps: options.steps(),
         speed,
+        desk,
     };
     let simulating = spawn("simulation", move || simulating.run())?;
 
     let server = Arc::new(server);
     let asked = Arc::clone(&server);
+    let round_trip: Arc<dyn Fn() -> Quantiles + Send + Sync> = Arc::new(move || round_trip_of(&asked));
+    let paced = Arc::clone(&server);
+    let steering = controls.zip(record).zip(scene).map(|((controls, record), scene)| Steering {
+        scene,
+        controls,
+        record,
+        tempo: Arc::new(move |rate| paced.as_ref().as_ref().map_or((), |server| server.set_tempo(rate))),
+        round_trip: Arc::clone(&round_trip),
+    });
+    if let Some(steering) = &steering {
+        (steering.tempo)(speed);
+    }
     let summed = facts.clone();
     let end = move || {
         let simulated = simulating.join().map_err(|_| RunError::Died("simulation"))?;
         let spoken = io.join().map_err(|_| RunError::Died("IO"))?.map_err(RunError::Thread)?;
-        let round_trip = round_trip(&server);
+        let round_trip = round_trip_of(&server);
         let recorded = recording.finish()?;
         Ok(Summary::new(&summed, &simulated, &spoken, round_trip, recorded))
     };
@@ -77,9 +102,17 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
         notices,
         simulation: simulation_viewer,
         exchange: exchange_viewer,
-        round_trip: Box::new(move || round_trip(&asked)),
+        round_trip,
+        steering,
         end: Box::new(end),
     })
+}
+
+/// Has the scene of `plant` follow `engine`.
+pub(super) fn show(engine: &mut Engine, plant: &Plant) -> Arc<Scene> {
+    let scene = Arc::new(Scene::of(plant));
+    engine.show(plant, Arc::clone(&scene));
+    scene
 }
 
 /// Where the automation is; starts it where it is embedded: on a free port, on the loopback interface alone.
@@ -96,7 +129,7 @@ pub(super) fn reach(connect: Connect, plant: &Plant) -> Result<(Option<Server>, 
     }
 }
 
-fn round_trip(server: &Option<Server>) -> Quantiles {
+fn round_trip_of(server: &Option<Server>) -> Quantiles {
     let statistics = server.as_ref().and_then(Server::statistics);
     statistics.map(|statistics| Quantiles::of_ns(&statistics.round_trip_ns)).unwrap_or_default()
 }
@@ -113,30 +146,33 @@ struct Simulating {
     stop: Stop,
     steps: Option<u64>,
     speed: f64,
+    /// Where it can be controlled.
+    desk: Option<Desk>,
 }
 
 impl Simulating {
     /// Simulates until the last step or until it is stopped. When it is done the bell is gone: that ends the IO thread.
     fn run(self) -> Simulated {
-        let Simulating { mut simulation, frames, say, stop, steps, speed } = self;
+        let Simulating { mut simulation, frames, say, stop, steps, speed, mut desk } = self;
         let clock = WallClock::start();
-        let frame_steps = (FRAME_INTERVAL.as_secs_f64() * speed / simulation.engine().step().as_secs_f64()) as u64;
-        if steps != Some(0) {
-            let mut spare = SimulationFrame::default();
-            simulation.pace(speed, |simulation| {
-                // Where nobody reads them fast enough, the newest are left out: a step waits for nobody.
-                simulation.take_incidents().iter().for_each(|what| drop(say.try_send(incident(what, clock.now()))));
-                let made = simulation.timing().steps;
-                if made % frame_steps.max(1) == 0 {
-                    spare.fill(simulation);
-                    spare = frames.publish(std::mem::take(&mut spare)).unwrap_or_default();
-                }
-                match stop.is_asked() || steps.is_some_and(|steps| made >= steps) {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                }
-            });
-        }
+        let frame_steps = |speed: f64| {
+            ((FRAME_INTERVAL.as_secs_f64() * speed / simulation.engine().step().as_secs_f64()) as u64).max(1)
+        };
+        let frame_steps = frame_steps(speed);
+        let mut spare = SimulationFrame::default();
+        simulation.pace(speed, |simulation| {
+            // Where nobody reads them fast enough, the newest are left out: a step waits for nobody.
+            simulation.take_incidents().iter().for_each(|what| drop(say.try_send(incident(what, clock.now()))));
+            let made = simulation.timing().steps;
+            if made.is_multiple_of(frame_steps) {
+                spare.fill(simulation);
+                spare = frames.publish(std::mem::take(&mut spare)).unwrap_or_default();
+            }
+            if stop.is_asked() || steps.is_some_and(|steps| made >= steps) {
+                return Next::End;
+            }
+            desk.as_mut().map_or(Next::Step, |desk| desk.attend(simulation))
+        });
         Simulated::of(&simulation, clock.now())
     }
 }

@@ -32,6 +32,7 @@ mod header;
 pub mod import;
 mod info;
 mod motion;
+pub mod operator;
 mod reader;
 mod recorder;
 mod rhythm;

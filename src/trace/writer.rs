@@ -102,7 +102,7 @@ impl<W: Write> Writer<W> {
     }
 
     /// Writes a line of another trace as it stands.
-    pub(super) fn line(&mut self, at: Instant, text: &str) -> io::Result<()> {
+    pub(crate) fn line(&mut self, at: Instant, text: &str) -> io::Result<()> {
         self.last = self.last.max(at);
         self.line.push_str(text);
         self.end_line()

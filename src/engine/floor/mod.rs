@@ -10,6 +10,7 @@ mod bays;
 mod carry;
 mod contact;
 mod hold;
+mod operate;
 mod part;
 mod push;
 mod rest;
@@ -19,6 +20,7 @@ mod tally;
 mod tests;
 
 pub(super) use bays::{Bay, Drain};
+pub(super) use operate::PartRequest;
 pub(super) use part::Support;
 use part::{Parts, Slot};
 pub use tally::{Incident, IncidentKind, PartCounts};

@@ -16,15 +16,18 @@ pub struct PartCounts {
     pub boxes_in: u64,
     /// Boxes that left at the end of a belt or by an unloading bay.
     pub boxes_out: u64,
-    /// Boxes that fell off: in − out − present.
+    /// Boxes that fell off: in − out − present − removed.
     pub boxes_lost: u64,
     /// Boxes in the plant.
     pub boxes_present: u64,
+    /// Boxes that an operator took out.
+    pub boxes_removed: u64,
     /// Pallets, in the same way.
     pub pallets_in: u64,
     pub pallets_out: u64,
     pub pallets_lost: u64,
     pub pallets_present: u64,
+    pub pallets_removed: u64,
     /// How often two parts, or a part and a plate, came to be in one another by more than 0.1 mm.
     pub collisions: u64,
 }
@@ -84,6 +87,7 @@ pub(in crate::engine) struct Tally {
     entered: [u64; 2],
     left: [u64; 2],
     lost: [u64; 2],
+    removed: [u64; 2],
     pub collisions: u64,
     /// Who is in whom at present, by the keys of their bodies; sorted.
     colliding: Vec<[u64; 2]>,
@@ -105,10 +109,12 @@ impl Tally {
             boxes_out: self.left[0],
             boxes_lost: self.lost[0],
             boxes_present: present[0],
+            boxes_removed: self.removed[0],
             pallets_in: self.entered[1],
             pallets_out: self.left[1],
             pallets_lost: self.lost[1],
             pallets_present: present[1],
+            pallets_removed: self.removed[1],
             collisions: self.collisions,
         }
     }
@@ -119,6 +125,10 @@ impl Tally {
 
     pub fn left(&mut self, part: &Part) {
         self.left[place(part.kind)] += 1;
+    }
+
+    pub fn removed(&mut self, part: &Part) {
+        self.removed[place(part.kind)] += 1;
     }
 
     pub fn lost(&mut self, part: &Part, from: &str) {
