@@ -227,6 +227,22 @@ fn a_part_that_runs_into_the_side_of_a_plate_waits() {
     assert_eq!(floor.counts().collisions, 0);
 }
 
+/// A robot set one into the other, as it does in a replay whose line stands.
+#[test]
+fn parts_in_one_another_are_pushed_and_do_not_push_each_other_back() {
+    let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
+    floor.plates.push(plate(2.0, -0.5, FRAC_PI_2));
+    for (x, y) in [(2.0, 0.0), (2.0, 0.05), (2.02, -0.02)] {
+        let block = Block::new(DVec3::new(SIDE, SIDE, 0.2), Upright::new(x, y, 0.0, 0.0));
+        floor.enter(PartKind::Box, block, Support::Belt(0));
+    }
+    run_plate(&mut floor, 450, &mut 0.0, 1e-3, &[0.0]);
+    for (_, part) in floor.parts.iter() {
+        let y = part.block.upright().place.y;
+        assert!((0.1 - CONTACT_M..0.3).contains(&y), "{y}");
+    }
+}
+
 #[test]
 fn what_is_crushed_between_two_plates_is_counted_once() {
     let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
