@@ -31,7 +31,10 @@ impl ReportFiles {
         let report = Report::from_json(path, &text)?;
         let page = match std::fs::read_to_string(path.with_extension("html")) {
             Ok(page) => page,
-            Err(_) => page(&report, &Evidence { plant: path.display().to_string(), ..Evidence::default() }),
+            Err(_) => {
+                let plant = report.made_from.as_ref().map_or("the plant", |from| &from.model).to_owned();
+                page(&report, &Evidence { plant, ..Evidence::default() })
+            }
         };
         Ok(ReportFiles { report, page })
     }

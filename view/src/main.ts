@@ -172,7 +172,7 @@ async function begin(): Promise<void> {
     [...panels.keys()].forEach((name, index) => (keys[String(index + 1)] = () => show(name)));
     if (store.isLive) {
       keys["."] = () => transport.step(1);
-      keys[":"] = () => transport.step(10);
+      keys[">"] = keys[":"] = () => transport.step(10);
       keys["r"] = () => void transport.recordOrEnd();
       keys["Delete"] = () => void (part !== null && remove(part));
     }

@@ -125,7 +125,7 @@ export class Rows {
       const signal = this.store.signal(row.register);
       const value = this.store.values[row.register]!;
       const digital = isSwitch(signal);
-      const shown = Number.isNaN(value) ? "–" : digital ? (value ? "TRUE" : "FALSE") : `${figure(value)}${signal.unit === "1" ? "" : `\u202f${signal.unit}`}`;
+      const shown = Number.isNaN(value) ? "–" : digital ? (value ? "TRUE" : "FALSE") : `${figure(value, 3)}${signal.unit === "1" ? "" : `\u202f${signal.unit}`}`;
       if (shown !== row.shown) {
         row.shown = row.value.textContent = shown;
         row.value.classList.toggle("on", digital && value === 1);

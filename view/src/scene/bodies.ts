@@ -24,6 +24,7 @@ export class Bodies {
   /** The frame and the spot of each instance of each mesh. */
   private readonly owners = new Map<InstancedMesh, number[]>();
   private readonly scratch = new Matrix4();
+  private readonly hidden: boolean[] = [];
 
   constructor(
     private readonly shape: Shape,
@@ -73,12 +74,28 @@ export class Bodies {
       place.fromArray(poses, i * 7);
       turn.fromArray(poses, i * 7 + 3);
       frame.compose(place, turn, ONE);
+      this.hidden[nodes[i]!] = false;
       for (const { mesh, index, local } of this.spots[nodes[i]!]!) {
         mesh.setMatrixAt(index, this.scratch.multiplyMatrices(frame, local));
         mesh.instanceMatrix.needsUpdate = true;
         mesh.boundingSphere = null;
       }
     }
+  }
+
+  /** Hides what stands where `other` has it, and shows the rest: a ghost tells only what differs. */
+  onlyUnlike(other: Bodies): void {
+    this.frames.forEach((frame, node) => {
+      const alike = frame.elements.every((number, index) => Math.abs(number - other.frames[node]!.elements[index]!) < 1e-3);
+      if (alike === this.hidden[node]) return;
+      this.hidden[node] = alike;
+      for (const { mesh, index, local } of this.spots[node]!) {
+        if (alike) this.scratch.makeScale(0, 0, 0);
+        else this.scratch.multiplyMatrices(frame, local);
+        mesh.setMatrixAt(index, this.scratch);
+        mesh.instanceMatrix.needsUpdate = true;
+      }
+    });
   }
 
   /** The device that an instance of a mesh belongs to. */

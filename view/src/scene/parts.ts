@@ -101,6 +101,7 @@ export class Parts {
   readonly all = new Map<number, PartMove>();
   chosen: number | null = null;
   private readonly kinds: Kind[];
+  private hides: (part: PartMove) => boolean = () => false;
 
   constructor(colours: Colour[], material: Material, shadow: Material | null) {
     const colour = ([r, g, b]: Colour) => new Color().setRGB(r / 255, g / 255, b / 255, "srgb");
@@ -116,6 +117,14 @@ export class Parts {
     this.put();
   }
 
+  /** Hides parts that stand where one of `others` does. */
+  onlyUnlike(others: Parts): void {
+    const alike = (part: PartMove) =>
+      [...others.all.values()].some((other) => other.kind === part.kind && other.place.every((number, index) => Math.abs(number - part.place[index]!) < 2e-3));
+    this.hides = alike;
+    this.put();
+  }
+
   choose(number: number | null): void {
     if (number === this.chosen) return;
     this.chosen = number;
@@ -124,7 +133,7 @@ export class Parts {
 
   private put(): void {
     const accent = new Color("#18a7b5");
-    const of = (kind: number) => [...this.all.values()].filter((part) => part.kind === kind);
+    const of = (kind: number) => [...this.all.values()].filter((part) => part.kind === kind && !this.hides(part));
     this.kinds.forEach((kind, index) => kind.put(of(index), this.group, this.shadows, this.chosen, accent));
   }
 

@@ -148,6 +148,8 @@ export class World {
     this.parts.move(frame.begins, frame.plant.parts, frame.plant.gone);
     this.ghost?.move(frame.ghost.nodes, frame.ghost.poses);
     this.ghostParts?.move(frame.begins, frame.ghost.parts, frame.ghost.gone);
+    this.ghost?.onlyUnlike(this.bodies);
+    this.ghostParts?.onlyUnlike(this.parts);
     for (const { beam, cut } of frame.beams) (this.beams[beam]?.material.uniforms["tint"]?.value as Color | undefined)?.copy(cut ? CUT : FREE);
     if (frame.plant.nodes.length > 0) this.placeBeams(frame.begins ? null : frame.plant.nodes);
     if (frame.begins && !this.settled) {
