@@ -5,6 +5,7 @@
 pub mod adapter;
 pub mod automation;
 pub mod bank;
+pub mod bench;
 pub mod cli;
 pub mod device;
 pub mod effect;

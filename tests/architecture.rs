@@ -39,6 +39,7 @@ const ROWS: &[(&str, f64)] = &[
     ("run", 8.0),
     ("view", 9.0),
     ("integration", 9.0),
+    ("bench", 9.0),
     ("cli", 10.0),
     ("main", 10.5),
 ];

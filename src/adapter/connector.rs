@@ -335,6 +335,7 @@ impl<T: Transport> Adapter for Connector<T> {
         let client = ClientSettings {
             timeout: settings.timeout,
             limits: settings.limits,
+            signals: settings.signals.clone(),
             ..ClientSettings::new(settings.id.clone())
         };
         self.session = Some(Session {

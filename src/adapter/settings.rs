@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::Endpoint;
 use crate::security::{ClientTls, Token};
 use crate::session::Limits;
+use crate::wire::SignalSelection;
 
 /// The settings of a connector: those of the reference (host, port, timeout, signals map; section 5.3.2.3) and ours.
 ///
@@ -19,6 +20,8 @@ pub struct Settings {
     pub max_message: usize,
     /// How many values a message may bring, and how many messages a second may.
     pub limits: Limits,
+    /// The signals that the automation is to send, and how often at most; `None` for all, at every change.
+    pub signals: Option<Vec<SignalSelection>>,
     /// Who connects: the same for all connections of one run, unique across runs.
     pub id: String,
     /// Sent as `Authorization: Bearer …` with the WebSocket handshake.
@@ -39,6 +42,7 @@ impl Settings {
             timeout,
             max_message: Settings::MAX_MESSAGE,
             limits: Limits::default(),
+            signals: None,
             id: id.into(),
             token: None,
             tls: None,

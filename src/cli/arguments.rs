@@ -18,6 +18,7 @@ use super::view::{ViewArguments, parse_address};
 use crate::adapter::ParseEndpointError;
 use crate::run::{Connect, Speed};
 use crate::time::parse_duration;
+use crate::wire::SignalSelection;
 
 /// Virtual commissioning of IEC 61499 automations: a plant's model runs in real time against its automation.
 #[derive(Debug, Parser)]
@@ -67,7 +68,85 @@ pub enum Command {
         #[command(subcommand)]
         command: GapCommand,
     },
+    /// What the channel costs, measured now beside its peers; and the load of 200 blocks held
+    Bench {
+        #[command(subcommand)]
+        command: BenchCommand,
+    },
 }
+
+#[derive(Debug, Subcommand)]
+pub enum BenchCommand {
+    Latency(LatencyArguments),
+    Load(LoadArguments),
+    /// Writes the plant's file of so many blocks, as models/r001 has it
+    Plant {
+        #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+        blocks: u32,
+        /// Writes it to a file instead of standard output
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+}
+
+/// Measures the table of docs/performance.md: round trips of kinetwin and of its peers, in turns.
+///
+/// Peers are a raw TCP echo, a bare tokio-tungstenite echo, the same loop with serde_json, Modbus TCP, and where they are
+/// installed mosquitto (MQTT) and Python's asyncua (OPC UA; KINETWIN_PYTHON names another Python). Quantiles are corrected
+/// for coordinated omission. Takes about two minutes; leave the machine alone meanwhile.
+#[derive(Debug, Args)]
+#[command(after_long_help = LATENCY_HELP)]
+pub struct LatencyArguments {
+    /// How often the rows take turns
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub rounds: u32,
+    /// Prints the table as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const LATENCY_HELP: &str = "\
+Exit codes:
+  0  every goal is met
+  1  some are missed; each is named
+  2  something could not be measured";
+
+/// Holds the load of requirement R001: every block is set every cycle, and every answer is counted.
+///
+/// A run in this process, on the wall clock, over a real WebSocket; first some seconds without a command, to compare the
+/// step's computing time.
+#[derive(Debug, Args)]
+#[command(after_long_help = LOAD_HELP)]
+pub struct LoadArguments {
+    /// How many blocks, each with two commands and two reports
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=20_000))]
+    pub blocks: u32,
+    /// How often every block is set
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "10ms")]
+    pub cycle: Duration,
+    /// How long; with --limit, how long for each trial
+    #[arg(long = "for", value_name = "TIME", value_parser = parse_duration, default_value = "10s")]
+    pub duration: Duration,
+    /// The engine's step of simulated time
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "1ms")]
+    pub step: Duration,
+    /// Looks for the most blocks that can be held
+    #[arg(long, conflicts_with = "blocks")]
+    pub limit: bool,
+    /// Prints the result as one JSON object on standard output, and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+const LOAD_HELP: &str = "\
+Examples:
+  kinetwin bench load --for 10m
+  kinetwin bench load --limit --cycle 1ms --for 3s
+
+Exit codes:
+  0  held: no cycle was missed that the operating system did not miss, and nothing was lost
+  1  not held
+  2  something could not be measured";
 
 #[derive(Debug, Subcommand)]
 pub enum GapCommand {
@@ -122,6 +201,12 @@ pub struct RunArguments {
     /// The seed of all that is random in the plant: the same seed, the same parts
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
+    /// Asks the automation to send this signal, no faster than TIME where it is given, and no other; may be given several
+    /// times
+    ///
+    /// A server that does not know this selection sends everything.
+    #[arg(long, value_name = "SIGNAL[=TIME]", value_parser = parse_selection)]
+    pub select: Vec<SignalSelection>,
     /// Records the session as a trace: JSON Lines, compressed where the name ends with .zst
     ///
     /// The trace is written beside FILE under a name that ends with .partial and takes its name when the run has ended.
@@ -343,6 +428,15 @@ fn parse_connect(text: &str) -> Result<Connect, ParseEndpointError> {
     match text {
         "embedded" => Ok(Connect::Embedded),
         url => url.parse().map(Connect::Server),
+    }
+}
+
+fn parse_selection(text: &str) -> Result<SignalSelection, String> {
+    let (name, interval) = text.split_once('=').map_or((text, None), |(name, interval)| (name, Some(interval)));
+    let min_interval = interval.map_or(Ok(Duration::ZERO), parse_duration).map_err(|error| error.to_string())?;
+    match name {
+        "" => Err("expected a signal's name, as Belt.velocityTarget or Belt.velocityTarget=100ms".to_owned()),
+        name => Ok(SignalSelection { name: name.to_owned(), min_interval }),
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod apply;
 mod arguments;
+mod bench;
 mod check;
 mod credentials;
 mod diagnose;
@@ -57,6 +58,7 @@ pub fn main() -> ExitCode {
     let answer = match arguments.command {
         None => run::run(&RunArguments::main_job()),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Bench { command }) => bench::bench(&command),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::SignalsMap(arguments)) => check::signals_map(&arguments),
         Some(Command::Replay(arguments)) => replay::replay(&arguments),

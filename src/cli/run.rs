@@ -187,6 +187,7 @@ fn options(arguments: &RunArguments) -> Result<Options, Failure> {
         low: arguments.lf,
         speed: arguments.speed,
         seed: arguments.seed,
+        signals: (!arguments.select.is_empty()).then(|| arguments.select.clone()),
         record: record.clone().map(|path| RecordTo { path, replace: *force }),
         ..connecting(&arguments.model, connection)?
     })

@@ -5,8 +5,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use tokio::signal::unix::{SignalKind, signal};
-
 use super::terminal;
 use crate::run::Stop;
 
@@ -26,18 +24,16 @@ impl Interruption {
     pub fn watch(stop: Stop) -> io::Result<Interruption> {
         let interruption = Interruption { stop, has_screen: Arc::default() };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build()?;
-        let (mut interrupts, mut terminations) = {
+        let mut requests = {
             let _inside = runtime.enter();
-            (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?)
+            Requests::watch()?
         };
         let told = interruption.clone();
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
             runtime.block_on(async {
                 loop {
-                    tokio::select! {
-                        _ = interrupts.recv() => told.interrupt(),
-                        _ = terminations.recv() => told.interrupt(),
-                    }
+                    requests.next().await;
+                    told.interrupt();
                 }
             })
         })?;
@@ -64,5 +60,42 @@ impl Interruption {
             terminal::give_back();
         }
         std::process::exit(INTERRUPTED);
+    }
+}
+
+/// Requests to end, from outside.
+#[cfg(unix)]
+struct Requests {
+    interrupts: tokio::signal::unix::Signal,
+    terminations: tokio::signal::unix::Signal,
+}
+
+#[cfg(unix)]
+impl Requests {
+    fn watch() -> io::Result<Requests> {
+        use tokio::signal::unix::{SignalKind, signal};
+        Ok(Requests { interrupts: signal(SignalKind::interrupt())?, terminations: signal(SignalKind::terminate())? })
+    }
+
+    async fn next(&mut self) {
+        tokio::select! {
+            _ = self.interrupts.recv() => {}
+            _ = self.terminations.recv() => {}
+        }
+    }
+}
+
+/// Requests to end, from outside: Ctrl-C, where there are no signals.
+#[cfg(not(unix))]
+struct Requests(tokio::signal::windows::CtrlC);
+
+#[cfg(not(unix))]
+impl Requests {
+    fn watch() -> io::Result<Requests> {
+        tokio::signal::windows::ctrl_c().map(Requests)
+    }
+
+    async fn next(&mut self) {
+        self.0.recv().await;
     }
 }

@@ -14,30 +14,62 @@
 
 use std::io;
 use std::io::{ErrorKind, Write};
-use std::os::unix::net::UnixStream;
 use std::task::{Context, Poll};
+
+#[cfg(unix)]
+use std::os::unix::net::UnixStream as Wire;
+#[cfg(unix)]
+use tokio::net::UnixStream as HeardWire;
+
+#[cfg(not(unix))]
+use std::net::TcpStream as Wire;
+#[cfg(not(unix))]
+use tokio::net::TcpStream as HeardWire;
 
 /// The end that rings; the simulation thread's.
 #[derive(Debug)]
 pub struct Bell {
-    stream: UnixStream,
+    stream: Wire,
 }
 
 /// The end that hears; the IO thread's.
 #[derive(Debug)]
 pub struct Listener {
-    stream: UnixStream,
+    stream: Wire,
 }
 
 /// A [`Listener`] on the runtime that it is heard on.
 #[derive(Debug)]
 pub struct Ears {
-    stream: tokio::net::UnixStream,
+    stream: HeardWire,
+}
+
+/// Two connected sockets.
+#[cfg(unix)]
+fn pair() -> io::Result<(Wire, Wire)> {
+    Wire::pair()
+}
+
+/// Two connected sockets, on the loopback interface where the system has no others.
+#[cfg(not(unix))]
+fn pair() -> io::Result<(Wire, Wire)> {
+    let listener = std::net::TcpListener::bind(("127.0.0.1", 0))?;
+    let near = Wire::connect(listener.local_addr()?)?;
+    let own = near.local_addr()?;
+    // Somebody else may have found the port in the meantime.
+    let far = loop {
+        let (far, peer) = listener.accept()?;
+        if peer == own {
+            break far;
+        }
+    };
+    near.set_nodelay(true)?;
+    Ok((near, far))
 }
 
 /// A bell and its listener. Fails where the process may open no more files.
 pub fn bell() -> io::Result<(Bell, Listener)> {
-    let (near, far) = UnixStream::pair()?;
+    let (near, far) = pair()?;
     near.set_nonblocking(true)?;
     far.set_nonblocking(true)?;
     Ok((Bell { stream: near }, Listener { stream: far }))
@@ -54,7 +86,7 @@ impl Bell {
 impl Listener {
     /// Registers with the tokio runtime that the caller runs on.
     pub fn listen(self) -> io::Result<Ears> {
-        Ok(Ears { stream: tokio::net::UnixStream::from_std(self.stream)? })
+        Ok(Ears { stream: HeardWire::from_std(self.stream)? })
     }
 }
 

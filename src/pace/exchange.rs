@@ -92,6 +92,14 @@ impl<A: Adapter, W: Witness> Exchange<A, W> {
         cx.waker().wake_by_ref();
     }
 
+    /// Takes out of the memory what a step that was just made put there, and sends it. Whether something arrived meanwhile:
+    /// then another turn is due at once.
+    pub fn report(&mut self, cx: &mut Context<'_>, now: Instant) -> bool {
+        let mut memory = Memory { bank: &mut self.bank, witness: &mut self.witness };
+        self.adapter.hf_memory_update(now, &mut memory, self.high.is_due(now));
+        self.adapter.hf_io(cx, now)
+    }
+
     /// When the next turn is due though nothing happens before.
     pub fn next_turn(&self) -> Instant {
         let loops = self.high.next.min(self.low.next);

@@ -7,12 +7,14 @@
 //!
 //! was published: an edge leaves at once, a level when its interval is over.
 
+mod answer;
 mod bell;
 mod clock;
 mod exchange;
 mod simulation;
 
+pub use answer::answer;
 pub use bell::{Bell, Ears, Listener, bell};
 pub use clock::WallClock;
 pub use exchange::{Exchange, Rates, drive};
-pub use simulation::{Journal, Next, NoJournal, Simulation, Timing};
+pub use simulation::{Journal, Next, NoJournal, Simulation, Timing, sharpen_sleep};

@@ -40,13 +40,15 @@ pub struct Timing {
     pub late_steps: u64,
     /// The computing time of each step, in nanoseconds of processor time.
     pub computing_ns: Histogram<u64>,
+    /// How late each step began on the wall clock, in nanoseconds; empty where steps keep to no clock.
+    pub lateness_ns: Histogram<u64>,
 }
 
 impl Timing {
     fn new() -> Timing {
         // Up to a minute; three digits. What is longer counts as a minute.
-        let computing_ns = Histogram::new_with_bounds(1, LONGEST_STEP_NS, 3).expect("bounds in order, three digits");
-        Timing { steps: 0, overruns: 0, late_steps: 0, computing_ns }
+        let empty = || Histogram::new_with_bounds(1, LONGEST_STEP_NS, 3).expect("bounds in order, three digits");
+        Timing { steps: 0, overruns: 0, late_steps: 0, computing_ns: empty(), lateness_ns: empty() }
     }
 }
 
@@ -146,6 +148,7 @@ impl Simulation {
                 std::thread::sleep(ahead);
             }
             let late = clock.now().since(due);
+            self.timing.lateness_ns.saturating_record(late.as_nanos() as u64);
             if late < schedule.period {
                 owed_by_us = false;
             } else if !owed_by_us {
@@ -187,13 +190,22 @@ impl Schedule {
 }
 
 /// The processor time that the calling thread has used. What others used while it waited for its turn is not in it.
+#[cfg(unix)]
 fn processor_time() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
 }
 
+/// The time that goes by: where a thread's own cannot be asked for, what others use counts as ours.
+#[cfg(not(unix))]
+fn processor_time() -> Duration {
+    use std::sync::LazyLock;
+    static ORIGIN: LazyLock<std::time::Instant> = LazyLock::new(std::time::Instant::now);
+    ORIGIN.elapsed()
+}
+
 /// Asks Linux not to delay this thread's timers in order to save wake-ups: by default it adds up to 50 µs to a sleep.
-fn sharpen_sleep() {
+pub fn sharpen_sleep() {
     #[cfg(target_os = "linux")]
     {
         // Where it is refused, steps begin a little later than they might: no reason to stop.

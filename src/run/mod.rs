@@ -245,6 +245,12 @@ pub fn start(options: &Options) -> Result<Handle, RunError> {
     if let MapState::Differs { path, differences } = model::map_state(&plant)? {
         return Err(RunError::Map { model: options.model.clone(), path, differences });
     }
+    start_plant(options, plant)
+}
+
+/// Starts a run of `plant`, which is there already; the options' model is only its name, and no signals map is compared.
+pub fn start_plant(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunError> {
+    options.validate()?;
     match (options.speed, options.automation_of(&plant)) {
         (Speed::Wall(speed), connect) => wall::start(options, plant, connect, speed),
         (Speed::Max, Connect::Embedded) => stepped::start(options, plant),

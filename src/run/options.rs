@@ -10,6 +10,7 @@ use crate::plant::{EMBEDDED_HOST, Plant};
 use crate::security::{ClientTls, Token};
 use crate::session::Limits;
 use crate::time::format_duration;
+use crate::wire::SignalSelection;
 
 /// Everything about a run that its caller decides. What is `None` is as the plant's file says.
 #[derive(Clone, Debug)]
@@ -39,6 +40,8 @@ pub struct Options {
     pub max_message: usize,
     /// How many values a message may bring, and how many messages a second may.
     pub limits: Limits,
+    /// The signals that the automation is to send, and how often at most; `None` for all, at every change.
+    pub signals: Option<Vec<SignalSelection>>,
     /// A bearer token for the automation's server.
     pub token: Option<Token>,
     /// How a `wss://` server is reached.
@@ -97,6 +100,7 @@ impl Options {
             timeout: None,
             max_message: Settings::MAX_MESSAGE,
             limits: Limits::default(),
+            signals: None,
             token: None,
             tls: None,
         }
@@ -156,6 +160,7 @@ impl Options {
             timeout: self.timeout.unwrap_or(plant.adapter.timeout),
             max_message: self.max_message,
             limits: self.limits,
+            signals: self.signals.clone(),
             token: self.token.clone(),
             tls: self.tls.clone(),
             ..Settings::new(endpoint, id)

@@ -24,6 +24,11 @@ pub(crate) struct Exchange {
     /// For each register, the number of the last message that held a good value of it, and that value's place.
     seen: Vec<(u64, usize)>,
     messages: u64,
+    /// For each register, the one that followed it in the last message that held it: a peer says its signals in the same
+    /// order again and again, and comparing a name is faster than looking it up.
+    next: Vec<u32>,
+    /// For each register, the beginning of its entry in a message.
+    begun: Vec<Box<str>>,
 }
 
 /// What became of one `SendValue`.
@@ -48,7 +53,9 @@ pub(super) struct Sending {
 impl Exchange {
     pub(crate) fn new(map: Arc<SignalMap>, ours: Direction) -> Exchange {
         let seen = vec![(0, 0); map.signals().len()];
-        Exchange { map, ours, seen, messages: 0 }
+        let next = (1..=map.signals().len() as u32).collect();
+        let begun = map.signals().iter().map(|signal| SendValueText::begin(&signal.name)).collect();
+        Exchange { map, ours, seen, messages: 0, next, begun }
     }
 
     pub(super) fn map(&self) -> &SignalMap {
@@ -62,12 +69,13 @@ impl Exchange {
         let mut faults = Vec::new();
         let mut nameless = 0;
         let mut suggestions = SUGGESTIONS_PER_MESSAGE;
+        let mut last = None;
         for entry in entries {
             let Some(name) = &entry.name else {
                 nameless += 1;
                 continue;
             };
-            match self.entry(name, entry, &mut suggestions) {
+            match self.entry(name, entry, &mut last, &mut suggestions) {
                 Err((result, message)) => faults.push(Fault { name: name.to_string(), result, message }),
                 Ok((register, value)) => match self.seen[register.index()] {
                     (message, place) if message == self.messages => values[place].1 = value,
@@ -86,13 +94,25 @@ impl Exchange {
         Receipt { outcome, reply, nameless }
     }
 
+    /// The register of the signal called `name`, after that of the entry before it.
+    fn look_up(&mut self, name: &str, last: &mut Option<RegisterId>) -> Option<RegisterId> {
+        let guess = last.map_or(0, |last| self.next[last.index()]);
+        let guessed = self.map.signals().get(guess as usize).is_some_and(|signal| signal.name == name);
+        let register = if guessed { RegisterId(guess) } else { self.map.register(name)? };
+        if let Some(last) = last.replace(register) {
+            self.next[last.index()] = register.0;
+        }
+        Some(register)
+    }
+
     fn entry(
-        &self,
+        &mut self,
         name: &str,
         entry: &Entry<'_>,
+        last: &mut Option<RegisterId>,
         suggestions: &mut usize,
     ) -> Result<(RegisterId, Value), (ResultCode, String)> {
-        let Some(register) = self.map.register(name) else {
+        let Some(register) = self.look_up(name, last) else {
             let similar = (*suggestions > 0).then(|| similar(&self.map, name)).flatten();
             *suggestions = suggestions.saturating_sub(1);
             let hint = similar.map(|name| format!("; did you mean {name:?}?")).unwrap_or_default();
@@ -122,7 +142,7 @@ impl Exchange {
             let signal = self.map.signal(*register);
             if signal.direction != self.ours {
                 unsendable.push((*register, format!("{} is the other side's to set, and was not sent", signal.name)));
-            } else if let Err(error) = text.push(&signal.name, value) {
+            } else if let Err(error) = text.push_begun(&self.begun[register.index()], value) {
                 unsendable.push((*register, format!("{} was not sent: {error}", signal.name)));
             }
         }

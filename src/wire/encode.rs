@@ -27,13 +27,28 @@ impl SendValueText {
 
     /// Adds the value of the signal `name`. A value without a JSON form is refused, and the message stays as it was.
     pub fn push(&mut self, name: &str, value: &Value) -> Result<(), NotFinite> {
+        self.push_entry(|text| write_head(text, name), value)
+    }
+
+    /// The beginning of the entry of the signal `name`, for [`push_begun`](Self::push_begun): what is written again and
+    /// again need be escaped only once.
+    pub fn begin(name: &str) -> Box<str> {
+        let mut text = String::new();
+        write_head(&mut text, name);
+        text.into()
+    }
+
+    /// As [`push`](Self::push), of a signal whose entry [`begin`](Self::begin) has begun.
+    pub fn push_begun(&mut self, begun: &str, value: &Value) -> Result<(), NotFinite> {
+        self.push_entry(|text| text.push_str(begun), value)
+    }
+
+    fn push_entry(&mut self, head: impl FnOnce(&mut String), value: &Value) -> Result<(), NotFinite> {
         let start = self.text.len();
         if self.entries > 0 {
             self.text.push(',');
         }
-        self.text.push_str("{\"name\":");
-        write_string(&mut self.text, name);
-        self.text.push_str(",\"value\":");
+        head(&mut self.text);
         if let Err(error) = write_value(&mut self.text, value, TextForm::Base64) {
             self.text.truncate(start);
             return Err(error);
@@ -53,6 +68,13 @@ impl SendValueText {
         self.text.push_str("]}");
         (self.entries > 0).then_some(self.text)
     }
+}
+
+/// An entry up to its value.
+fn write_head(out: &mut String, name: &str) {
+    out.push_str("{\"name\":");
+    write_string(out, name);
+    out.push_str(",\"value\":");
 }
 
 impl Message<'_> {

@@ -190,3 +190,33 @@ fn what_befalls_a_part_is_told_with_its_place() {
     connection.farewell();
     assert_eq!(run.end().json()["parts_lost"], 1);
 }
+
+/// R007: a selection of signals, and of how often they come at most.
+#[test]
+fn a_run_asks_for_the_signals_that_it_wants_no_faster_than_it_wants_them() {
+    let host = Host::new();
+    let select = ["--select", "Belt.velocityTarget=100ms", "--select", "Pusher.command"];
+    let run = Running::start(&[&["run", "models/rig", "--connect", &host.url()], &select[..]].concat());
+    let (connection, connect) = host.accept_session(200);
+    let expect = json!([
+        { "name": "Belt.velocityTarget", "minInterval": 100 },
+        { "name": "Pusher.command", "minInterval": 0 }
+    ]);
+    assert_eq!(connect["Signals"], expect);
+    run.interrupt();
+    connection.farewell();
+    assert_eq!(run.end().code(), 0);
+    // A server that knows the selection keeps to it.
+    let (_server, url) = automation(&[]);
+    let folder = TempDir::new().expect("a folder");
+    let trace = path(&folder, "selected.cps.jsonl");
+    let arguments =
+        ["run", "models/rig", "--connect", &url, "--for", "2s", "--record", &trace, "--select", "Belt.velocityTarget"];
+    assert_eq!(kinetwin(&arguments).code(), 0);
+    let heard = commands(&trace);
+    assert!(!heard.is_empty());
+    assert!(
+        heard.iter().all(|text| text.matches("\"name\"").count() == 1 && text.contains("Belt.velocityTarget")),
+        "{heard:?}"
+    );
+}

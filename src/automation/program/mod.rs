@@ -1,5 +1,6 @@
 //! What controls which plant: the programs by the plants' names.
 
+mod blocks;
 pub mod depalletizer;
 mod maps;
 pub mod rig;
@@ -46,6 +47,7 @@ impl Control {
                     let program = depalletizer::program(&mut binder);
                     Box::new(binder.finish(program)?)
                 }
+                "r001" => Box::new(blocks::Blocks::new(map)),
                 _ => Box::new(Hold),
             },
         })

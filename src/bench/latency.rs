@@ -1,0 +1,299 @@
+//! The table of `docs/performance.md`, measured now.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use hdrhistogram::Histogram;
+use serde::Serialize;
+
+use super::channel::{self, Exchanged};
+use super::load::Running;
+use super::modbus::Modbus;
+use super::mqtt::{Broker, Mqtt};
+use super::opcua::OpcUa;
+use super::row::{Measured, Peer, Quantity, Row};
+use super::sent::Sent;
+use super::serde_loop::SerdeLoop;
+use super::{BenchError, blocks, echo};
+use crate::bank;
+use crate::pace::{Next, NoJournal, Simulation, WallClock, sharpen_sleep};
+use crate::plant::Plant;
+use crate::run::{Options, model};
+use crate::time::Instant;
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// How often the rows take turns.
+    pub rounds: usize,
+    /// How long a row's turn is, back to back.
+    pub turn: Duration,
+    /// Calls of a paced row in its turn.
+    pub paced_calls: usize,
+}
+
+impl Effort {
+    /// About a minute and a half.
+    pub const FULL: Effort = Effort { rounds: 20, turn: Duration::from_millis(80), paced_calls: 20 };
+}
+
+/// The pace of requirement R001.
+const PACE: Duration = Duration::from_millis(10);
+/// A pace that meets a loop of 1 ms at every phase.
+const WANDERING: Duration = Duration::from_micros(10_370);
+
+/// The table, and what became of the goals.
+#[derive(Debug, Serialize)]
+pub struct Table {
+    pub rows: Vec<Measured>,
+    pub ratios: Ratios,
+    pub goals: Vec<Goal>,
+    /// Peers that are not installed here.
+    pub absent: Vec<&'static str>,
+}
+
+/// The ratios that the goals are about.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Ratios {
+    /// A value through kinetwin to an echo of the same bytes by tokio-tungstenite, median.
+    pub channel_p50: f64,
+    /// The same, 99th percentile.
+    pub channel_p99: f64,
+    /// R001's exchange to the same with serde_json, median.
+    pub r001_p50: f64,
+    /// R001's exchange every 10 ms to an echo of the same bytes by tokio-tungstenite at that pace, median.
+    pub r001_paced_p50: f64,
+    /// The simulation loop's lateness to a bare thread's, 99.9th percentile.
+    pub lateness_p999: f64,
+}
+
+/// What is to be reached.
+#[derive(Clone, Debug, Serialize)]
+pub struct Goal {
+    pub what: String,
+    pub found: f64,
+    pub at_most: f64,
+    pub met: bool,
+}
+
+mod names {
+    pub const RAW_1: &str = "raw TCP echo, 1 value";
+    pub const WEB_1: &str = "tokio-tungstenite echo, 1 value";
+    pub const CHANNEL: &str = "kinetwin channel, 1 value";
+    pub const RAW_200: &str = "raw TCP echo, 200 values";
+    pub const WEB_200: &str = "tokio-tungstenite echo, 200 values";
+    pub const R001: &str = "kinetwin R001 exchange, 200 blocks";
+    pub const SERDE: &str = "tokio-tungstenite and serde_json, 200 blocks";
+    pub const MODBUS: &str = "Modbus TCP, write 100 and read 100";
+    pub const RAW_PACED: &str = "every 10 ms: raw TCP echo, 200 values";
+    pub const WEB_PACED: &str = "every 10 ms: tokio-tungstenite echo, 200 values";
+    pub const R001_PACED: &str = "every 10 ms: kinetwin R001 exchange";
+    pub const SERDE_PACED: &str = "every 10 ms: tokio-tungstenite and serde_json";
+    pub const SENT: &str = "every 10 ms: from a change in a step to its frame";
+    pub const RUN_IDLE: &str = "kinetwin run in 1 ms steps, 1 of 200 blocks";
+    pub const RUN_LOAD: &str = "kinetwin run in 1 ms steps, 200 blocks";
+    pub const BARE: &str = "lateness at 1 ms: bare thread";
+    pub const LOOP: &str = "lateness at 1 ms: simulation loop";
+}
+
+/// Measures everything.
+pub fn measure(effort: Effort, mut progress: impl FnMut(&str)) -> Result<Table, BenchError> {
+    let mut absent = Vec::new();
+    let broker = Broker::start();
+    progress("connecting");
+    let mut rows = back_to_back(broker.as_ref(), &mut absent)?;
+    rows.extend(paced(broker.as_ref())?);
+    for row in &mut rows {
+        row.warm_up(if row.pace.is_some() { 20 } else { 5 }).map_err(|source| failed(row, source))?;
+    }
+    for round in 0..effort.rounds {
+        progress(&format!("round {} of {}", round + 1, effort.rounds));
+        for row in &mut rows {
+            let calls = if row.pace.is_some() { effort.paced_calls } else { calls_in(effort.turn, row)? };
+            row.measure(calls).map_err(|source| failed(row, source))?;
+        }
+    }
+    let mut measured: Vec<Measured> = rows.iter().map(Row::measured).collect();
+    drop(rows);
+    progress("the loop's lateness");
+    measured.extend(lateness(effort)?);
+    Ok(Table::new(measured, absent))
+}
+
+fn failed(row: &Row, source: std::io::Error) -> BenchError {
+    BenchError::Row { row: row.name.clone(), source }
+}
+
+/// So many calls as fit into `turn`, by a first few.
+fn calls_in(turn: Duration, row: &mut Row) -> Result<usize, BenchError> {
+    let few = row.peer.calls(3, None).map_err(|source| failed(row, source))?;
+    let each = few.iter().min().copied().unwrap_or(1).max(1_000);
+    Ok(((turn.as_nanos() as u64 / each) as usize).clamp(3, 2_000))
+}
+
+fn back_to_back(broker: Option<&Broker>, absent: &mut Vec<&'static str>) -> Result<Vec<Row>, BenchError> {
+    let (one, many) = (Arc::new(blocks::plant(1)), Arc::new(blocks::plant(blocks::R001)));
+    let (small, large) = (message(&one), message(&many));
+    let row = |name: &str, bytes, peer| Row::new(name, bytes, None, peer);
+    let mut rows = vec![
+        row(names::RAW_1, small.len(), Box::new(echo::Raw::new(small.len())?) as Box<dyn Peer>),
+        row(names::WEB_1, small.len(), Box::new(echo::web(&small)?)),
+        row(names::CHANNEL, small.len(), Box::new(channel::texts(&one)?)),
+        row(names::RAW_200, large.len(), Box::new(echo::Raw::new(large.len())?)),
+        row(names::WEB_200, large.len(), Box::new(echo::web(&large)?)),
+        row(names::R001, large.len(), Box::new(Exchanged::new(&many)?)),
+        row(names::SERDE, large.len(), Box::new(SerdeLoop::new(blocks::R001)?)),
+        row(names::MODBUS, Modbus::bytes(), Box::new(Modbus::new()?)),
+    ];
+    match broker {
+        None => absent.push("mosquitto"),
+        Some(broker) => {
+            for (qos, text, what) in
+                [(0, &small, "1 value"), (1, &small, "1 value"), (0, &large, "200 values"), (1, &large, "200 values")]
+            {
+                let name = format!("MQTT QoS {qos} through mosquitto, {what}");
+                rows.push(row(&name, text.len(), Box::new(Mqtt::new(broker, qos, text.len())?)));
+            }
+        }
+    }
+    for nodes in [1, blocks::R001] {
+        match OpcUa::start(nodes) {
+            None => absent.push("asyncua"),
+            Some(peer) => {
+                let nodes = if nodes == 1 { "1 node".to_owned() } else { format!("{nodes} nodes") };
+                rows.push(row(&format!("OPC UA by asyncua, write {nodes} and read"), 0, Box::new(peer)));
+            }
+        }
+    }
+    absent.dedup();
+    Ok(rows)
+}
+
+fn paced(broker: Option<&Broker>) -> Result<Vec<Row>, BenchError> {
+    let many = Arc::new(blocks::plant(blocks::R001));
+    let large = message(&many);
+    let row = |name: &str, bytes, peer| Row::new(name, bytes, Some(PACE), peer);
+    let mut rows = vec![
+        row(names::RAW_PACED, large.len(), Box::new(echo::Raw::new(large.len())?) as Box<dyn Peer>),
+        row(names::WEB_PACED, large.len(), Box::new(echo::web(&large)?)),
+        row(names::R001_PACED, large.len(), Box::new(Exchanged::new(&many)?)),
+        row(names::SERDE_PACED, large.len(), Box::new(SerdeLoop::new(blocks::R001)?)),
+        row("every 10 ms: Modbus TCP", Modbus::bytes(), Box::new(Modbus::new()?)),
+    ];
+    if let Some(broker) = broker {
+        for qos in [0, 1] {
+            // Named apart from those back to back: a broker knows its clients by name.
+            let bytes = large.len() + 1;
+            rows.push(row(
+                &format!("every 10 ms: MQTT QoS {qos}, 200 values"),
+                bytes,
+                Box::new(Mqtt::new(broker, qos, bytes)?),
+            ));
+        }
+    }
+    let run = |name: &str, switched| -> Result<Row, BenchError> {
+        Ok(Row::new(name, large.len(), Some(WANDERING), Box::new(Running::start(&many, switched)?)))
+    };
+    rows.push(Row::new(names::SENT, small_report(), Some(PACE), Box::new(Sent::new()?)));
+    rows.push(run(names::RUN_IDLE, 1)?);
+    rows.push(run(names::RUN_LOAD, blocks::R001)?);
+    Ok(rows)
+}
+
+/// The bytes of one block's report.
+fn small_report() -> usize {
+    r#"{"SendValue":[{"name":"Block001.ready","value":true}]}"#.len()
+}
+
+/// The message that switches every block of `plant` on.
+fn message(plant: &Plant) -> String {
+    let [on, _] = channel::switches(plant);
+    on
+}
+
+/// How late a bare thread wakes that sleeps from millisecond to millisecond, and how late the simulation's steps begin that
+/// sleep in the same way; in turns.
+fn lateness(effort: Effort) -> Result<Vec<Measured>, BenchError> {
+    let steps = effort.rounds as u64 * 100;
+    let plant = blocks::plant(1);
+    let empty = || Histogram::<u64>::new_with_bounds(1, 60_000_000_000, 3).expect("bounds in order, three digits");
+    let (mut bare, mut looped) = (empty(), empty());
+    for _ in 0..3 {
+        let woke = std::thread::spawn(move || sleep_through(steps)).join();
+        bare.add(woke.map_err(|_| std::io::Error::other("a thread that slept died"))?).expect("the same bounds");
+        let engine = model::engine(&plant, Options::STEP, 0)?;
+        let (side, _io) = bank::new(&plant.signal_map);
+        let mut simulation = Simulation::new(engine, side, None, Box::new(NoJournal));
+        let paced = std::thread::spawn(move || {
+            simulation.pace(1.0, |simulation| match simulation.timing().steps >= steps {
+                true => Next::End,
+                false => Next::Step,
+            });
+            simulation.timing().lateness_ns.clone()
+        });
+        looped.add(paced.join().map_err(|_| std::io::Error::other("a simulation died"))?).expect("the same bounds");
+    }
+    Ok(vec![Measured::of(names::BARE, 0, &bare), Measured::of(names::LOOP, 0, &looped)])
+}
+
+fn sleep_through(steps: u64) -> Histogram<u64> {
+    sharpen_sleep();
+    let mut late = Histogram::new_with_bounds(1, 60_000_000_000, 3).expect("bounds in order, three digits");
+    let clock = WallClock::start();
+    for k in 0..steps {
+        let due = Instant::ZERO + Duration::from_millis(k);
+        let ahead = due.since(clock.now());
+        if !ahead.is_zero() {
+            std::thread::sleep(ahead);
+        }
+        late.saturating_record(clock.now().since(due).as_nanos() as u64);
+    }
+    late
+}
+
+impl Table {
+    fn new(rows: Vec<Measured>, absent: Vec<&'static str>) -> Table {
+        let get = |name: &str, quantity| {
+            rows.iter().find(|row| row.name == name).map_or(f64::NAN, |row: &Measured| row.get(quantity))
+        };
+        let ratio =
+            |ours: &str, theirs: &str, quantity| (get(ours, quantity) / get(theirs, quantity) * 1e3).round() / 1e3;
+        let ratios = Ratios {
+            channel_p50: ratio(names::CHANNEL, names::WEB_1, Quantity::P50),
+            channel_p99: ratio(names::CHANNEL, names::WEB_1, Quantity::P99),
+            r001_p50: ratio(names::R001, names::SERDE, Quantity::P50),
+            r001_paced_p50: ratio(names::R001_PACED, names::WEB_PACED, Quantity::P50),
+            lateness_p999: ratio(names::LOOP, names::BARE, Quantity::P999),
+        };
+        let goal = |what: &str, found: f64, at_most: f64| Goal {
+            what: what.to_owned(),
+            found,
+            at_most,
+            met: found <= at_most,
+        };
+        let mut goals = vec![
+            goal("channel to a tokio-tungstenite echo, p50", ratios.channel_p50, 1.5),
+            goal("channel to a tokio-tungstenite echo, p99", ratios.channel_p99, 2.0),
+            goal("R001's exchange to serde_json's, p50", ratios.r001_p50, 0.8),
+            goal("R001's exchange every 10 ms to an echo at that pace, p50", ratios.r001_paced_p50, 1.2),
+            goal("a run's round trip in 1 ms steps, p99, µs", get(names::RUN_LOAD, Quantity::P99), 1_300.0),
+            goal("the loop's lateness to a bare thread's, p99.9", ratios.lateness_p999, 1.2),
+        ];
+        for row in &rows {
+            let rival = ["MQTT", "OPC UA", "Modbus"].iter().any(|peer| row.name.starts_with(peer));
+            if rival {
+                // A peer that moves one value competes with ours that moves one.
+                let is_small = row.name.contains("1 value") || row.name.contains("1 node");
+                let ours = if is_small { names::CHANNEL } else { names::R001 };
+                let found = (get(ours, Quantity::P50) / row.p50_us * 1e3).round() / 1e3;
+                goals.push(goal(&format!("{ours} to {}, p50", row.name), found, 1.0));
+            }
+        }
+        Table { rows, ratios, goals, absent }
+    }
+
+    /// Whether every goal is met.
+    pub fn meets_all(&self) -> bool {
+        self.goals.iter().all(|goal| goal.met)
+    }
+}
