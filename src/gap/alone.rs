@@ -114,8 +114,7 @@ impl Alone {
 
     /// The part that changed a beam last, if the port is that beam's.
     fn passing(&self, beam: Option<usize>) -> Option<Passing> {
-        let (part, speed) = self.world.as_ref()?.last[beam?]?;
-        Some(Passing { part, speed })
+        self.world.as_ref()?.last[beam?]
     }
 
     pub fn look(&mut self) -> &[f64] {

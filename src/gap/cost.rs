@@ -45,7 +45,7 @@ pub fn level(recorded: f64, predicted: f64, step: f64, sigma: f64) -> f64 {
     let off = (recorded - predicted).abs();
     let half = 0.5 * step;
     let there = student_between((off - half) / sigma, (off + half) / sigma);
-    let best = student_between(-half / sigma, half / sigma);
+    let best = 2.0 * (student(half / sigma) - 0.5);
     (-2.0 * (there / best).ln()).max(0.0)
 }
 

@@ -194,4 +194,16 @@ mod tests {
         }
         assert!(found > 15, "{found}");
     }
+
+    #[test]
+    fn a_fit_is_given_the_same_residuals_as_a_score_holds() {
+        let mut belt = belt();
+        for run in &mut belt.runs {
+            run.tracks.iter_mut().flatten().for_each(|track| track.blind = vec![(70, 90), (20, 40), (30, 45)]);
+        }
+        let predicted = belt.predict(&[], &Overrides::none()).expect("a belt");
+        let residuals = belt.residuals(&predicted);
+        assert!(residuals.len() > 300, "{}", residuals.len());
+        assert_eq!(residuals, belt.score(&predicted).residuals());
+    }
 }

@@ -5,7 +5,10 @@
 //! sensor adds: it is where all edges of the part together are likeliest. So no edge of a belt is compared with one that it
 //! inherited from the belt before.
 
+use std::sync::Arc;
+
 use super::edges::{interval_cost, pair};
+use super::lane::{End, Lane, Rider, Step};
 use super::prediction::PredictedEdge;
 use super::track::Track;
 use super::world::{Cut, Script, Surrounding, Told};
@@ -19,13 +22,17 @@ pub(super) struct Geometry {
     pub lengths: Vec<f64>,
     /// How far its parts' edges may be off, m.
     pub tolerance: f64,
+    /// The belt among its neighbours.
+    pub lane: Arc<Lane>,
+    /// Spans in which other hands may take a part out of a beam, s, by beam.
+    pub hands: [Vec<(f64, f64)>; 2],
 }
 
 /// How far from where it is expected a part may be seen, m, and as a share of its way.
 const GATE_M: f64 = 0.08;
 const GATE: f64 = 0.08;
 /// How far from a known length a part may have cut a beam, as a share.
-const LENGTH_GATE: f64 = 0.12;
+const LENGTH_GATE: f64 = 0.25;
 /// And how far, m, where the part's other cut fits.
 const LENGTH_GATE_M: f64 = 0.1;
 /// Which share of the parts of one barrier must reach the other for one that does not to be missed.
@@ -48,22 +55,14 @@ struct Seen {
     beam: usize,
     rise: usize,
     fall: Option<usize>,
-    /// The belt's way at its rise and its fall, m, in the direction in which the belt ran.
+    /// The belt's way at its rise, m.
     start: f64,
-    end: f64,
     /// Instants, s: the middles of the cycles.
     from: f64,
     to: f64,
     way: f64,
     length: Option<f64>,
     part: Option<usize>,
-}
-
-impl Seen {
-    /// How far the belt went while the beam was cut, m.
-    fn measured(&self) -> f64 {
-        (self.end - self.start).abs()
-    }
 }
 
 /// What the barriers of a belt saw, as a script and as the origins of their edges. `travel` gives the belt's nominal way at an
@@ -75,14 +74,14 @@ pub(super) fn assign(
 ) -> (Script, [Vec<Origin>; 2]) {
     let mut seen: Vec<Seen> = Vec::new();
     let mut origins = tracks.map(|track| vec![Origin::Input; track.map_or(0, |track| track.edges.len())]);
-    let mut script = Script::default();
+    let mut script = Script { lane: geometry.lane.clone(), ..Script::default() };
     for (beam, track) in tracks.iter().enumerate() {
         let Some(track) = track else { continue };
         seen.extend(cuts(geometry, beam, track, travel));
         play_initial(beam, track, &mut script);
     }
     seen.sort_by(|a, b| a.from.total_cmp(&b.from));
-    let parts = name_parts(geometry, &mut seen);
+    let parts = name_parts(geometry, &mut seen, travel);
     let reliable = is_reliable(&seen, parts);
     for (at, cut) in seen.iter().enumerate() {
         script_of(geometry, &seen, at, reliable, &mut script);
@@ -128,59 +127,115 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
         let way = if end - before < 0.0 { -1.0 } else { 1.0 };
         let is_seen = geometry.beams[beam].is_some();
         if is_seen {
-            cuts.push(Seen { beam, rise, fall, start, end, from, to, way, length: None, part: None });
+            cuts.push(Seen { beam, rise, fall, start, from, to, way, length: None, part: None });
         }
     }
     cuts
 }
 
-/// Gives every cut its part; returns how many there are.
-fn name_parts(geometry: &Geometry, seen: &mut [Seen]) -> usize {
+/// By which factors a belt may carry less or more than nominally; the nearest to 1 first.
+const FACTORS: [f64; 9] = [1.0, 0.92, 1.08, 0.85, 1.16, 0.78, 1.25, 0.7, 1.35];
+
+/// Gives every cut its part; returns how many there are. A belt that carries far less than nominally still brings what the first
+/// barrier saw to the second.
+fn name_parts(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f64) -> usize {
+    let mut best = link(geometry, seen, FACTORS[0]);
+    let most = |links: &[Option<usize>]| links.iter().flatten().count();
+    let could = seen.iter().filter(|cut| cut.beam == 0).count().min(seen.iter().filter(|cut| cut.beam == 1).count());
+    for factor in &FACTORS[1..] {
+        if most(&best) as f64 >= RELIABLE * could as f64 {
+            break;
+        }
+        let links = link(geometry, seen, *factor);
+        best = if most(&links) > most(&best) { links } else { best };
+    }
     let mut parts = 0;
     for at in 0..seen.len() {
         if seen[at].part.is_none() {
             seen[at].part = Some(parts);
             parts += 1;
         }
+        if let Some(other) = best[at] {
+            seen[other].part = seen[at].part;
+        }
+    }
+    give_lengths(geometry, seen, parts, travel);
+    parts
+}
+
+/// For each cut the one of the same part at the barrier that follows, where the belt carries `factor` times as far as nominally.
+fn link(geometry: &Geometry, seen: &[Seen], factor: f64) -> Vec<Option<usize>> {
+    let mut links = vec![None; seen.len()];
+    let mut is_taken = vec![false; seen.len()];
+    for at in 0..seen.len() {
         let first = seen[at];
-        let second = 1 - first.beam;
-        let Some(between) = distance(geometry, first.beam, first.way).filter(|way| *way > 0.0) else { continue };
-        let expected = first.start + first.way * between;
+        let between = distance(geometry, first.beam, first.way).filter(|way| *way > 0.0 && !is_taken[at]);
+        let Some(between) = between else { continue };
+        let expected = first.start + first.way * between / factor;
         let gate = GATE_M + GATE * between;
         let comes = |cut: &Seen| {
-            cut.beam == second
-                && cut.part.is_none()
+            cut.beam != first.beam
                 && cut.from > first.from
                 && cut.way == first.way
                 && (cut.start - expected).abs() <= gate
         };
         let nearest = (at + 1..seen.len())
-            .filter(|&other| comes(&seen[other]))
+            .filter(|&other| !is_taken[other] && comes(&seen[other]))
             .min_by(|a, b| (seen[*a].start - expected).abs().total_cmp(&(seen[*b].start - expected).abs()));
         if let Some(other) = nearest {
-            seen[other].part = first.part;
+            (links[at], is_taken[other]) = (Some(other), true);
         }
     }
-    give_lengths(geometry, seen, parts);
-    parts
+    links
 }
 
 /// Gives every part the length that its cuts fit best: one for both barriers, so that a barrier that is late at one edge shows.
-fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize) {
+fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &dyn Fn(f64) -> f64) {
     let mut best: Vec<Option<(f64, f64)>> = vec![None; parts];
-    for cut in seen.iter().filter(|cut| cut.fall.is_some()) {
+    let by_hands = |cut: &Seen| geometry.hands[cut.beam].iter().any(|(from, to)| (*from..=*to).contains(&cut.to));
+    let by_belt = |cut: &Seen| cut.fall.is_some() && !by_hands(cut);
+    for cut in seen.iter().filter(|cut| by_belt(cut)) {
         let Some(best) = cut.part.and_then(|part| best.get_mut(part)) else { continue };
-        for length in &geometry.lengths {
-            let off = (length - cut.measured()).abs();
-            if off <= LENGTH_GATE * length && best.is_none_or(|(least, _)| off < least) {
-                *best = Some((off, *length));
-            }
+        let off = |length: f64| misses(geometry, cut, length, travel);
+        let Some((least, length)) = nearest(&geometry.lengths, off) else { continue };
+        // Two that touch cut it as one.
+        let sums = geometry.lengths.iter().flat_map(|a| geometry.lengths.iter().map(move |b| a + b));
+        let is_one = least < LENGTH_GATE_M.min(0.5 * LENGTH_GATE * length) || sums.map(off).all(|sum| least < sum);
+        if is_one && least <= LENGTH_GATE * length && best.is_none_or(|(found, _)| least < found) {
+            *best = Some((least, length));
         }
     }
-    for cut in seen.iter_mut().filter(|cut| cut.fall.is_some()) {
+    for cut in seen.iter_mut().filter(|cut| by_belt(cut)) {
         let length = cut.part.and_then(|part| best[part]).map(|(_, length)| length);
-        cut.length = length.filter(|length| (length - cut.measured()).abs() <= LENGTH_GATE_M.max(LENGTH_GATE * length));
+        let fits = |length: &f64| misses(geometry, cut, *length, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length);
+        cut.length = length.filter(fits);
     }
+}
+
+/// The length that is off the least, with how far it is off.
+fn nearest(lengths: &[f64], off: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+    lengths.iter().map(|length| (off(*length), *length)).min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// How far a part of this length would have gone too far or not far enough while it cut the beam, m.
+fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> f64) -> f64 {
+    const STEP_S: f64 = 0.02;
+    let Some(front) = geometry.beams[cut.beam] else { return f64::INFINITY };
+    let centre = front - 0.5 * cut.way * length;
+    let mut rider = Rider { part: 0, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0 };
+    let steps = ((cut.to - cut.from) / STEP_S).ceil().max(1.0);
+    let at = |step: f64| cut.from + (cut.to - cut.from) * step / steps;
+    for step in 0..steps as u32 {
+        let (from, to) = (at(f64::from(step)), at(f64::from(step + 1)));
+        geometry.lane.carry(&mut rider, &Step { from, to, way: travel(to) - travel(from), slip: 0.0 });
+    }
+    // It leaves an open end before all of it has passed the beam.
+    let left = match (&geometry.lane.ends, cut.way > 0.0) {
+        ([_, End::Open], true) => geometry.lane.length + 0.5 * length - front,
+        ([End::Open, _], false) => front + 0.5 * length,
+        _ => length,
+    };
+    (rider.gone.abs() - length.min(left)).abs()
 }
 
 /// How far it is from one beam to the other, the way the belt runs.
@@ -208,8 +263,9 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
         _ => ahead,
     };
     let taken = if cut.length.is_some() { None } else { Some(cut.to).filter(|to| to.is_finite()) };
-    let length = cut.length.unwrap_or(1e3);
-    script.cuts.push(Cut { part, beam: cut.beam, from: first.from, ahead, way: first.way, length, taken });
+    let length = cut.length.unwrap_or(f64::INFINITY);
+    let front = geometry.beams[first.beam].unwrap_or_default();
+    script.cuts.push(Cut { part, beam: cut.beam, from: first.from, ahead, front, way: first.way, length, taken });
     // One that should have come to the other beam and did not is missed there.
     let is_alone = !seen.iter().enumerate().any(|(other, of)| other != at && of.part == cut.part);
     if let (true, true, Some(length), Some(between)) =
@@ -217,7 +273,7 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
         && between > 0.0
     {
         let beam = 1 - cut.beam;
-        script.cuts.push(Cut { part, beam, from: cut.from, ahead: between, way: cut.way, length, taken: None });
+        script.cuts.push(Cut { part, beam, from: cut.from, ahead: between, front, way: cut.way, length, taken: None });
     }
 }
 
@@ -242,7 +298,44 @@ struct PartEdge<'a> {
 
 /// How much further each part was than its first edge said, m.
 pub(super) fn likeliest_shifts(barriers: &[Barrier<'_>]) -> Vec<f64> {
-    let mut of_part: Vec<Vec<PartEdge<'_>>> = Vec::new();
+    edges_of_parts(barriers).iter().map(|edges| likeliest_shift(edges).1).collect()
+}
+
+/// What costs less than this is well enough explained.
+const EXPLAINED: f64 = 6.0;
+
+/// The script with other lengths for those parts whose edges say so: which of the plant's parts it was is known from the belt's way,
+/// and so by no more than that is. `None` where all are as likely as can be.
+pub(super) fn relengthed(script: &Script, lengths: &[f64], barriers: &[Barrier<'_>]) -> Option<Script> {
+    let mut other: Option<Script> = None;
+    for (part, edges) in edges_of_parts(barriers).into_iter().enumerate() {
+        let of_part = |cut: &&Cut| cut.part == part && cut.length.is_finite();
+        let Some(now) = script.cuts.iter().find(of_part).map(|cut| cut.length) else { continue };
+        let least = likeliest_shift(&edges).0;
+        if least < EXPLAINED {
+            continue;
+        }
+        let with = |length: f64| {
+            let longer = edges.iter().map(|edge| {
+                let by = if edge.predicted.to == 0.0 { now - length } else { 0.0 };
+                PartEdge { predicted: PredictedEdge { at: shifted(&edge.predicted, by), ..edge.predicted }, ..*edge }
+            });
+            likeliest_shift(&longer.collect::<Vec<_>>()).0
+        };
+        let costs = lengths.iter().map(|length| (with(*length), *length));
+        let Some((cost, length)) = costs.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+        if length != now && cost < least - 1.0 {
+            let cuts = &mut other.get_or_insert_with(|| script.clone()).cuts;
+            let own = cuts.iter_mut().filter(|cut| cut.part == part && cut.length.is_finite());
+            own.for_each(|cut| cut.length = length);
+        }
+    }
+    other
+}
+
+/// The edges of each part that were recorded and predicted.
+fn edges_of_parts<'a>(barriers: &[Barrier<'a>]) -> Vec<Vec<PartEdge<'a>>> {
+    let mut of_part: Vec<Vec<PartEdge<'a>>> = Vec::new();
     for Barrier { track, predicted, sigma } in barriers {
         for pair in pair(track, predicted, *sigma) {
             let (Some(recorded), Some(foreseen)) = (pair.recorded, pair.predicted) else { continue };
@@ -254,11 +347,11 @@ pub(super) fn likeliest_shifts(barriers: &[Barrier<'_>]) -> Vec<f64> {
             of_part[part].push(PartEdge { track, sigma: *sigma, index, predicted });
         }
     }
-    of_part.iter().map(|edges| likeliest_shift(edges)).collect()
+    of_part
 }
 
-/// How much further a part was than its first edge said, m: where its edges together cost least.
-fn likeliest_shift(edges: &[PartEdge<'_>]) -> f64 {
+/// What the edges of a part cost together at the least, and how much further it then was than its first edge said, m.
+fn likeliest_shift(edges: &[PartEdge<'_>]) -> (f64, f64) {
     let cost = |shift: f64| -> f64 {
         let edge = |edge: &PartEdge<'_>| {
             let predicted = PredictedEdge { at: shifted(&edge.predicted, shift), ..edge.predicted };
@@ -286,7 +379,7 @@ fn likeliest_shift(edges: &[PartEdge<'_>]) -> f64 {
         }
         step *= 0.6;
     }
-    best.1
+    best
 }
 
 /// When an edge comes of a part that is further by `shift`, s.
@@ -323,7 +416,13 @@ mod tests {
 
     /// A belt of the rig's that always runs at 0.5 m/s.
     fn of_rig(a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
-        let geometry = Geometry { beams: [Some(0.3), Some(1.7)], lengths: vec![0.3], tolerance: 0.0 };
+        let geometry = Geometry {
+            beams: [Some(0.3), Some(1.7)],
+            lengths: vec![0.3],
+            tolerance: 0.0,
+            lane: Arc::default(),
+            hands: Default::default(),
+        };
         assign(&geometry, [Some(&barrier(a)), Some(&barrier(b))], &|at| 0.5 * at)
     }
 
@@ -362,7 +461,7 @@ mod tests {
             at,
             index: (at / CYCLE_S).ceil() as usize,
             to,
-            part: Some(crate::gap::Passing { part: 0, speed: 0.5 }),
+            part: Some(crate::gap::Passing { part: 0, speed: 0.5, astray: 0.0 }),
         };
         // Both edges 45 ms early: the part was 22.5 mm further back than its first edge said, or a little beside.
         let edges = [edge(0.965, 1.0), edge(1.565, 0.0)];
@@ -372,7 +471,7 @@ mod tests {
             .zip(edges)
             .map(|(seen, predicted)| PartEdge { track: &track, sigma: 3e-4, index: seen.index, predicted })
             .collect();
-        let shift = likeliest_shift(&parts);
+        let (_, shift) = likeliest_shift(&parts);
         assert!((-0.0275..=-0.0175).contains(&shift), "{shift}");
         assert!(parts.iter().all(|part| {
             let predicted = PredictedEdge { at: shifted(&part.predicted, shift), ..part.predicted };

@@ -39,4 +39,7 @@ pub struct Passing {
     pub part: usize,
     /// How fast it passes, m/s: a part that is further by δ makes the edge sooner by δ / speed.
     pub speed: f64,
+    /// How far it may be from where it is taken to be, beside what all of its edges share, m: a belt that has a gap of its own
+    /// carried it.
+    pub astray: f64,
 }

@@ -6,6 +6,7 @@ use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::parts::shifted;
 use super::prediction::PredictedEdge;
+use super::samples::{Sample, Samples};
 use super::tolerance::Weighed;
 use super::track::Track;
 
@@ -82,15 +83,7 @@ impl Score {
     /// alone: of each level one for each sample, of each edge one for each that was recorded, and one for all that were not.
     pub fn residuals(&self) -> Vec<f64> {
         let mut residuals = Vec::new();
-        for signal in &self.signals {
-            residuals.extend(signal.level.iter().flat_map(|level| &level.residual));
-            let recorded = signal.edges.iter().filter(|edge| edge.recorded.is_some());
-            residuals.extend(recorded.map(|edge| edge.residual));
-            if signal.level.is_none() {
-                let extra = signal.edges.iter().filter(|edge| edge.recorded.is_none());
-                residuals.push(extra.map(|edge| edge.cost).sum::<f64>().sqrt());
-            }
-        }
+        self.signals.iter().for_each(|signal| signal.add_residuals(&mut residuals));
         residuals
     }
 
@@ -134,6 +127,17 @@ impl SignalScore {
         self.edges.iter().filter(|edge| edge.predicted.is_none()).count()
     }
 
+    /// Adds its residuals: see [`Score::residuals`].
+    pub(super) fn add_residuals(&self, residuals: &mut Vec<f64>) {
+        residuals.extend(self.level.iter().flat_map(|level| &level.residual));
+        let recorded = self.edges.iter().filter(|edge| edge.recorded.is_some());
+        residuals.extend(recorded.map(|edge| edge.residual));
+        if self.level.is_none() {
+            let extra = self.edges.iter().filter(|edge| edge.recorded.is_none());
+            residuals.push(extra.map(|edge| edge.cost).sum::<f64>().sqrt());
+        }
+    }
+
     /// How many predicted edges were not recorded.
     pub fn extra(&self) -> usize {
         self.edges.iter().filter(|edge| edge.recorded.is_none()).count()
@@ -148,47 +152,25 @@ impl SignalScore {
         is_count: bool,
     ) -> Self {
         let (grid, floor) = (&track.grid, weighed.floor);
-        let half = if is_count { 0.5 } else { 0.0 };
-        // A rest that counts by the second is not counted once.
-        let tells_anew = floor.shows_noise() || floor.misfit > 0.0;
+        let samples = Samples::new(track, predicted, weighed, is_count);
         let mut level = LevelScore::default();
         let (mut squares, mut floors) = (0.0, 0.0);
         let costs = floor.costs();
-        let lattice = track.values.first().copied().unwrap_or(0.0) + half;
+        let lattice = track.values.first().copied().unwrap_or(0.0) + samples.half();
         let mut floor_cost = (0.0, 0.0);
-        for (k, (recorded, predicted_here)) in track.values.iter().zip(predicted).enumerate() {
-            let index = track.first + k;
-            if track.is_blind(index) {
-                continue;
-            }
-            let slope = slope(grid.instants.as_slice(), track.first, predicted, k);
-            let difference = recorded + half - predicted_here;
-            // What is expected to be off anyway is off at rest as well, and says so for as long as it lasts.
-            let is_rest = !tells_anew && floor.reach == 0.0 && k > 0 && {
-                let before = track.values[k - 1] - predicted[k - 1];
-                let (now, step) = (recorded - predicted_here, floor.step);
-                let is_still =
-                    track.values[k - 1] == *recorded && (predicted[k - 1] - predicted_here).abs() < 1e-3 * step;
-                // On a ramp that climbs by whole steps in a cycle, rounding repeats itself as it does at rest.
-                let repeats = (now - before).abs() < 1e-2 * step && (now + half).abs() < 0.55 * step;
-                is_still || repeats
-            };
-            let weight = weighed.weight(k);
-            let cost = match is_rest {
-                true => 0.0,
-                false => weight * cost::level(recorded + half, *predicted_here, floor.step, floor.sigma(slope)),
-            };
-            level.at.push(grid.instants[index]);
+        samples.each(|sample| {
+            let Sample { cost, difference, weight, .. } = sample;
+            level.at.push(grid.instants[sample.index]);
             level.cost.push(cost);
             level.residual.push(residual(cost, difference));
             level.difference.push(difference);
             squares += difference * difference;
-            floors += floor.rms(slope).powi(2);
-            if !is_rest {
-                let (mean, variance) = costs.at((predicted_here - lattice) / floor.step);
+            floors += floor.rms(sample.slope).powi(2);
+            if !sample.is_rest {
+                let (mean, variance) = costs.at((sample.predicted - lattice) / floor.step);
                 floor_cost = (floor_cost.0 + weight * mean, floor_cost.1 + weight * weight * variance);
             }
-        }
+        });
         let count = level.at.len().max(1) as f64;
         SignalScore {
             signal: place.0,
@@ -236,13 +218,6 @@ impl SignalScore {
             edges,
         }
     }
-}
-
-/// How steeply a level is predicted to change about the `k`th instant of its track.
-fn slope(instants: &[f64], first: usize, predicted: &[f64], k: usize) -> f64 {
-    let (low, high) = (k.saturating_sub(1), (k + 1).min(predicted.len() - 1));
-    let span = instants[first + high] - instants[first + low];
-    if span > 0.0 { ((predicted[high] - predicted[low]) / span).abs() } else { 0.0 }
 }
 
 /// One pair; `None` where it lies in a span without evidence, or is one that was played back.

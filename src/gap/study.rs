@@ -6,11 +6,12 @@ use rayon::prelude::*;
 
 use super::clocks::{self, ClockOffset};
 use super::grid::Grid;
+use super::layout::Layout;
 use super::neighbours;
 use super::overrides::Overrides;
 use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
-use super::score::Score;
+use super::score::{Score, SignalScore};
 use super::subject::{Subject, Timing};
 use super::surroundings;
 use super::task::{self, Task};
@@ -90,9 +91,13 @@ impl Study {
             ticks.push(tick);
         }
         let sizes = surroundings::part_sizes(plant);
-        subjects.par_iter_mut().try_for_each(|subject| subject.surround(&sizes))?;
+        let layout = Layout::new(plant, &subjects)?;
+        let beside = layout.beside(&subjects, &|_| true)?;
+        subjects.par_iter_mut().zip(&beside).try_for_each(|(subject, beside)| subject.surround(&sizes, beside))?;
         (0..recordings.len()).for_each(|run| neighbours::tell(plant, &mut subjects, run));
-        let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
+        let mut nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
+        doubt_those_with_gaps(&layout, &mut subjects, &mut nominal, &sizes)?;
+        (0..recordings.len()).for_each(|run| neighbours::tell(plant, &mut subjects, run));
         for run in 0..recordings.len() {
             find_edge_sigma(&mut subjects, &nominal, run);
         }
@@ -181,6 +186,27 @@ fn calibrate(subject: &mut Subject) -> Result<Prediction, EffectError> {
     let nominal = subject.predict(&[], &Overrides::none())?;
     subject.find_reach(&nominal);
     Ok(nominal)
+}
+
+/// What a belt with a gap of its own does with the parts that it takes over is seen from both sides: a belt before it takes how far
+/// they went on it from when they were seen there, not from what it reported.
+fn doubt_those_with_gaps(
+    layout: &Layout,
+    subjects: &mut [Subject],
+    nominal: &mut [Prediction],
+    sizes: &[[f64; 2]],
+) -> Result<(), EffectError> {
+    let is_off = |signal: &SignalScore| signal.cost > 18.0 + 2.0 * signal.floor_cost.0;
+    let trusted = |(subject, nominal): (&Subject, &Prediction)| !subject.score(nominal).signals.iter().any(is_off);
+    let is_trusted: Vec<bool> = subjects.iter().zip(nominal.iter()).map(trusted).collect();
+    let beside = layout.beside(subjects, &|at| is_trusted[at])?;
+    for at in 0..subjects.len() {
+        if layout.follow(at).into_iter().any(|other| !is_trusted[other]) {
+            subjects[at].surround(sizes, &beside[at])?;
+            nominal[at] = calibrate(&mut subjects[at])?;
+        }
+    }
+    Ok(())
 }
 
 /// Whether a score is not far above its floor.

@@ -5,13 +5,16 @@ use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
 use super::beginning;
+use super::cost::residual;
 use super::floor::{Floor, step_of};
 use super::grid::median;
+use super::layout::Beside;
 use super::overrides::Overrides;
-use super::parts::{Barrier, likeliest_shifts};
+use super::parts::{Barrier, likeliest_shifts, relengthed};
 use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::restarts::Restarts;
+use super::samples::Samples;
 use super::score::{Score, SignalScore};
 use super::study::Grids;
 use super::surroundings;
@@ -69,6 +72,8 @@ pub struct Run {
     pub script: Arc<Script>,
     /// The same with what its neighbours did.
     pub(super) among_neighbours: Arc<Script>,
+    /// How long the parts may be that pass it, m of its way.
+    pub(super) part_lengths: Vec<f64>,
     /// Whether the recording starts under way, so that the device is given time to settle at its first commands.
     pub(super) settles: bool,
     /// Whether it goes on with a recording whose commands are lost, so that nobody knows where the device is.
@@ -145,6 +150,7 @@ impl Subject {
                 rests: vec![Vec::new(); signals.len()],
                 script: Arc::default(),
                 among_neighbours: Arc::default(),
+                part_lengths: Vec::new(),
                 commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
                 task: Task::default(),
@@ -183,13 +189,20 @@ impl Subject {
             let watch = |(info, track)| self.watch(info, track, run);
             let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
             let script = if asks_neighbours { &run.among_neighbours } else { &run.script };
-            let alone = Alone::new(device.boxed(), self.kind.ports.len(), script);
-            let mut predicted = alone::run(alone, run, &watches);
-            for (predicted, watch) in predicted.iter_mut().zip(&watches) {
-                // By the clock of the reports.
-                if let Predicted::Edges { edges, .. } = predicted {
-                    edges.iter_mut().for_each(|edge| edge.at -= watch.lead);
+            let replay = |script: &Arc<Script>| {
+                let mut predicted =
+                    alone::run(Alone::new(device.boxed(), self.kind.ports.len(), script), run, &watches);
+                for (predicted, watch) in predicted.iter_mut().zip(&watches) {
+                    // By the clock of the reports.
+                    if let Predicted::Edges { edges, .. } = predicted {
+                        edges.iter_mut().for_each(|edge| edge.at -= watch.lead);
+                    }
                 }
+                predicted
+            };
+            let mut predicted = replay(script);
+            if let Some(other) = relengthed(script, &run.part_lengths, &self.barriers(run, &predicted)) {
+                predicted = replay(&Arc::new(other));
             }
             self.count_on(run, &mut predicted);
             Ok(predicted)
@@ -270,18 +283,48 @@ impl Subject {
         Score::of(scores)
     }
 
+    /// [`Score::residuals`] of [`Subject::score`], and nothing else of it: what a fit asks for thousands of times.
+    pub fn residuals(&self, prediction: &Prediction) -> Vec<f64> {
+        let samples = self.runs.iter().flat_map(|run| run.tracks.iter().flatten()).map(|track| track.values.len());
+        let mut residuals = Vec::with_capacity(samples.sum::<usize>() + 64);
+        let pairs = || self.runs.iter().zip(&prediction.runs);
+        let shifts: Vec<Vec<f64>> = pairs().map(|(run, predicted)| self.shifts(run, predicted)).collect();
+        for (signal, info) in self.signals.iter().enumerate() {
+            for (at, (run, predicted)) in pairs().enumerate() {
+                match (&run.tracks[signal], &predicted[signal]) {
+                    (Some(track), Predicted::Level(values)) => {
+                        let weighed = run.weighed(signal);
+                        let samples = Samples::new(track, values, &weighed, info.is_count);
+                        samples.each(|sample| residuals.push(residual(sample.cost, sample.difference)));
+                    }
+                    (Some(track), Predicted::Edges { edges, .. }) => {
+                        let sigma = run.edge_sigmas[signal];
+                        let score = SignalScore::edges((signal, at), track, edges, &shifts[at], sigma);
+                        score.add_residuals(&mut residuals);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        residuals
+    }
+
     /// How much further each part of a run was than its first edge said, m: see [`super::parts`].
     fn shifts(&self, run: &Run, predicted: &[Predicted]) -> Vec<f64> {
+        likeliest_shifts(&self.barriers(run, predicted))
+    }
+
+    /// The barriers of a run that parts pass.
+    fn barriers<'a>(&self, run: &'a Run, predicted: &'a [Predicted]) -> Vec<Barrier<'a>> {
         let signals = run.tracks.iter().zip(predicted).zip(&run.edge_sigmas);
-        let barriers: Vec<Barrier<'_>> = signals
+        signals
             .filter_map(|((track, predicted), sigma)| match (track, predicted) {
                 (Some(track), Predicted::Edges { edges, .. }) if !track.origins.is_empty() => {
                     Some(Barrier { track, predicted: edges, sigma: *sigma })
                 }
                 _ => None,
             })
-            .collect();
-        likeliest_shifts(&barriers)
+            .collect()
     }
 
     /// The signals that sensors make of what they see, not the drive's own states.
@@ -326,10 +369,10 @@ impl Subject {
     }
 
     /// Finds out what surrounded the device in each run: see [`surroundings`].
-    pub(super) fn surround(&mut self, sizes: &[[f64; 2]]) -> Result<(), EffectError> {
+    pub(super) fn surround(&mut self, sizes: &[[f64; 2]], beside: &[Beside]) -> Result<(), EffectError> {
         let device = self.device(&[], &Overrides::none())?;
-        for run in &mut self.runs {
-            surroundings::surround(self.kind, &self.parameters, &self.signals, device.as_ref(), sizes, run);
+        for both in beside.iter().zip(&mut self.runs) {
+            surroundings::surround(self.kind, &self.parameters, &self.signals, device.as_ref(), sizes, both);
         }
         Ok(())
     }

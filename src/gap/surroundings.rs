@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use super::alone;
+use super::layout::Beside;
 use super::parts::{self, Geometry, Origin};
 use super::subject::{Run, SignalInfo, beam_of};
 use super::track::Track;
@@ -39,7 +40,7 @@ pub(super) fn surround(
     signals: &[SignalInfo],
     device: &dyn Device,
     sizes: &[[f64; 2]],
-    run: &mut Run,
+    (beside, run): (&Beside, &mut Run),
 ) {
     let script = match device.role() {
         Role::Carries(belt) => {
@@ -47,7 +48,10 @@ pub(super) fn surround(
                 beams: belt.barriers,
                 lengths: lengths(&belt.surface, sizes),
                 tolerance: tolerance(&belt.surface),
+                lane: beside.lane.clone(),
+                hands: beside.hands.clone(),
             };
+            run.part_lengths.clone_from(&geometry.lengths);
             of_belt(&geometry, signals, device, run)
         }
         Role::Pushes(_) => of_pusher(signals, run),
@@ -57,16 +61,28 @@ pub(super) fn surround(
     run.script = Arc::new(script);
 }
 
-/// How long parts cut a beam that lies across a belt, m of its way: by their length or by their width.
+/// How far beside the middle of a curve a part may lie, m, and how finely that is told.
+const ASIDE_M: f64 = 0.1;
+const ASIDE_STEPS: i32 = 8;
+/// Lengths nearer to one another than this are one, m.
+const SAME_M: f64 = 2e-3;
+
+/// How long parts cut a beam that lies across a belt, m of its way: by their length or by their width; on a curve, where nobody knows
+/// how far from its middle they lie, by any of many.
 fn lengths(surface: &Surface, sizes: &[[f64; 2]]) -> Vec<f64> {
     let along = |[length, width]: [f64; 2]| match *surface {
-        Surface::Straight { .. } => length,
+        Surface::Straight { .. } => vec![length],
         // Its front's inner corner meets the beam first, its rear's leaves it last.
-        Surface::Curve { radius, .. } => 2.0 * radius * (0.5 * length).atan2(radius - 0.5 * width),
+        Surface::Curve { radius, .. } => {
+            let aside = (-ASIDE_STEPS..=ASIDE_STEPS).map(|step| ASIDE_M * f64::from(step) / f64::from(ASIDE_STEPS));
+            let inner = aside.map(|aside| radius + aside - 0.5 * width).filter(|inner| *inner > 0.0);
+            inner.map(|inner| 2.0 * radius * (0.5 * length).atan2(inner)).collect()
+        }
     };
-    let mut lengths: Vec<f64> = sizes.iter().flat_map(|&[a, b]| [along([a, b]), along([b, a])]).collect();
+    let mut lengths: Vec<f64> = sizes.iter().flat_map(|&[a, b]| [along([a, b]), along([b, a])]).flatten().collect();
     lengths.sort_by(f64::total_cmp);
-    lengths.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let apart = if matches!(surface, Surface::Straight { .. }) { 1e-6 } else { SAME_M };
+    lengths.dedup_by(|a, b| (*a - *b).abs() < apart);
     lengths
 }
 

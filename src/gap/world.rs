@@ -1,12 +1,14 @@
 //! What surrounds a device that stands alone: the parts that pass it.
 //!
 //! Nobody recorded where parts are; what was recorded is when they cut a beam. The first barrier that sees a part is an input:
-//! from there on the part moves with the belt of the model, and its next edges are predicted. Whatever cannot be predicted
-//! from this device and its own edges (a box that a robot set down, one that a pusher took away in the middle of a beam) is
-//! played back as it was recorded.
+//! from there on the part moves with the belt of the model, behind its end with the belt there as that reported, and its next edges
+//! are predicted. Whatever cannot be predicted from these (a box that a robot set down, one that a pusher took away in the middle
+//! of a beam) is played back as it was recorded.
 
 use std::sync::Arc;
 
+use super::lane::{Lane, Rider, Step};
+use super::prediction::Passing;
 use crate::device::{Device, Role, Surroundings};
 
 /// What a run does to a device from outside.
@@ -16,6 +18,8 @@ pub struct Script {
     pub cuts: Vec<Cut>,
     /// Beams and seals as they were recorded, in the order of time.
     pub told: Vec<Told>,
+    /// Of a belt: itself among its neighbours.
+    pub(super) lane: Arc<Lane>,
 }
 
 /// A beam or a seal is told to be so from now on.
@@ -49,9 +53,11 @@ pub struct Cut {
     pub from: f64,
     /// How far its front is from the beam then, m of the belt's way.
     pub ahead: f64,
+    /// Where its front is then, m from the belt's start.
+    pub front: f64,
     /// Which way the belt runs: 1 or -1.
     pub way: f64,
-    /// How long it is along the belt, m.
+    /// How long it is along the belt, m; infinite where that is not known.
     pub length: f64,
     /// When it leaves the beam by other hands than the belt's, s; nothing if the belt carries it out.
     pub taken: Option<f64>,
@@ -79,14 +85,18 @@ pub(super) struct World {
     script: Arc<Script>,
     next_cut: usize,
     next_told: usize,
-    /// The cuts that matter now, each with the belt's way at its start.
-    active: Vec<(Cut, f64)>,
-    /// How far the belt has carried since the start, m.
-    way: f64,
+    /// The cuts that matter now.
+    active: Vec<Cut>,
+    /// The parts that are there.
+    riders: Vec<Rider>,
+    /// How many of them are held back.
+    queued: u32,
     told: Surroundings,
+    /// How many of them the device was told of.
+    shown_queue: u32,
     beams: [bool; 2],
-    /// The part that changed each beam last, and the belt's speed then, m/s.
-    pub last: [Option<(usize, f64)>; 2],
+    /// The part that changed each beam last.
+    pub last: [Option<Passing>; 2],
 }
 
 impl World {
@@ -98,7 +108,9 @@ impl World {
             next_cut: 0,
             next_told: 0,
             active: Vec::new(),
-            way: 0.0,
+            riders: Vec::new(),
+            queued: 0,
+            shown_queue: 0,
             told: Surroundings::default(),
             beams: [false; 2],
             last: [None; 2],
@@ -114,7 +126,7 @@ impl World {
     fn next(&self) -> Option<f64> {
         let cut = self.script.cuts.get(self.next_cut).map(|cut| cut.from);
         let told = self.script.told.get(self.next_told).map(|told| told.at);
-        let taken = self.active.iter().filter_map(|(cut, _)| cut.taken).min_by(f64::total_cmp);
+        let taken = self.active.iter().filter_map(|cut| cut.taken).min_by(f64::total_cmp);
         [cut, told, taken].into_iter().flatten().min_by(f64::total_cmp)
     }
 
@@ -123,7 +135,7 @@ impl World {
     pub fn advance(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) -> bool {
         while now < until {
             let stop = self.stop(now, until);
-            self.way += moved(device.as_mut(), stop - now);
+            self.carry(device.as_mut(), now, stop);
             if !self.active.is_empty() && self.cut() != self.beams {
                 return false;
             }
@@ -150,22 +162,33 @@ impl World {
         self.next().filter(|at| *at > now).map_or(until, |at| at.min(until))
     }
 
+    /// Moves the device, and the parts on it with it.
+    fn carry(&mut self, device: &mut dyn Device, now: f64, until: f64) {
+        device.advance(until - now);
+        let Role::Carries(belt) = device.role() else { return };
+        if !self.riders.is_empty() {
+            let step = Step { from: now, to: until, way: belt.displacement, slip: belt.transfer_slip };
+            self.queued = self.script.lane.carry_all(&mut self.riders, &step);
+        }
+    }
+
     /// Moves on to `until`, or to the first crossing of a beam.
     fn leg(&mut self, device: &mut Box<dyn Device>, now: f64, until: f64) -> Leg {
-        let (start, way) = (device.clone(), self.way);
-        self.way = way + moved(device.as_mut(), until - now);
+        let (start, riders) = (device.clone(), self.riders.clone());
+        self.carry(device.as_mut(), now, until);
         if self.active.is_empty() || self.cut() == self.beams {
             return Leg { device: start, from: now, to: until, until };
         }
         let (mut low, mut high) = (0.0, until - now);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            let mut tried = start.clone();
-            self.way = way + moved(tried.as_mut(), middle);
+            self.riders.clone_from(&riders);
+            self.carry(start.clone().as_mut(), now, now + middle);
             if self.cut() == self.beams { low = middle } else { high = middle }
         }
         *device = start.clone();
-        self.way = way + moved(device.as_mut(), high);
+        self.riders = riders;
+        self.carry(device.as_mut(), now, now + high);
         self.crossed(device.as_mut());
         Leg { device: start, from: now, to: now + low, until: now + high }
     }
@@ -174,7 +197,8 @@ impl World {
     fn read(&mut self, device: &mut dyn Device, now: f64) {
         let mut news = false;
         while let Some(cut) = self.script.cuts.get(self.next_cut).filter(|cut| cut.from <= now) {
-            self.active.push((*cut, self.way));
+            self.active.push(*cut);
+            put_on(&mut self.riders, cut);
             self.next_cut += 1;
             news = true;
         }
@@ -189,25 +213,39 @@ impl World {
             self.next_told += 1;
             news = true;
         }
-        let before = self.active.len();
-        let way = self.way;
-        self.active.retain(|(cut, from)| {
-            let progress = cut.way * (way - from);
-            cut.taken.is_none_or(|taken| taken > now) && progress < cut.ahead + cut.length + GONE_M
-        });
-        if news || before != self.active.len() {
+        let before = (self.active.len(), self.riders.len());
+        self.forget(now);
+        if news || before != (self.active.len(), self.riders.len()) || self.queued != self.shown_queue {
             self.crossed(device);
         }
+    }
+
+    /// Forgets what is over by `now`: cuts that are past, and parts of which nothing is to come.
+    fn forget(&mut self, now: f64) {
+        let (riders, lane) = (&mut self.riders, &self.script.lane);
+        self.active.retain(|cut| {
+            let rider = riders.iter().find(|rider| rider.part == cut.part);
+            let is_past =
+                |rider: &Rider| cut.way * rider.gone >= cut.ahead + cut.length + GONE_M || lane.has_left(rider);
+            cut.taken.is_none_or(|taken| taken > now) && rider.is_some_and(|rider| !is_past(rider))
+        });
+        let active = &self.active;
+        riders.retain(|rider| active.iter().any(|cut| cut.part == rider.part) || lane.bears(rider));
     }
 
     /// The beams as they are now.
     fn cut(&self) -> [bool; 2] {
         let mut beams = [self.told.barrier_a, self.told.barrier_b];
-        for (cut, from) in &self.active {
-            let progress = cut.way * (self.way - from) - cut.ahead;
-            beams[cut.beam] |= progress > 0.0 && progress < cut.length;
+        for (cut, rider) in self.passing() {
+            let progress = cut.way * rider.gone - cut.ahead;
+            beams[cut.beam] |= progress > 0.0 && progress < cut.length && !self.script.lane.has_left(rider);
         }
         beams
+    }
+
+    /// The cuts that matter now, each with its part.
+    fn passing(&self) -> impl Iterator<Item = (&Cut, &Rider)> {
+        self.active.iter().filter_map(|cut| Some((cut, self.riders.iter().find(|rider| rider.part == cut.part)?)))
     }
 
     fn crossed(&mut self, device: &mut dyn Device) {
@@ -219,30 +257,43 @@ impl World {
         for (beam, is_cut) in beams.into_iter().enumerate() {
             if is_cut != self.beams[beam] {
                 // The part that is nearest to an edge of its own at that beam.
-                let near = |(cut, from): &(Cut, f64)| {
-                    let progress = cut.way * (self.way - from) - cut.ahead;
-                    (progress.abs().min((progress - cut.length).abs()), cut.part)
+                let near = |(cut, rider): (&Cut, &Rider)| {
+                    let progress = cut.way * rider.gone - cut.ahead;
+                    let leaves = if self.script.lane.has_left(rider) { 0.0 } else { f64::INFINITY };
+                    // Sooner at the end of this belt is sooner behind it.
+                    let was_here = rider.speed > 0.0 && self.script.lane.is_beyond(rider);
+                    let speed = if was_here { rider.speed } else { speed };
+                    let passing = Passing { part: cut.part, speed, astray: rider.astray() };
+                    (progress.abs().min((progress - cut.length).abs()).min(leaves), passing)
                 };
-                let here = self.active.iter().filter(|(cut, _)| cut.beam == beam).map(near);
+                let here = self.passing().filter(|(cut, _)| cut.beam == beam).map(near);
                 let nearest = here.min_by(|a, b| a.0.total_cmp(&b.0));
-                self.last[beam] = nearest.map(|(_, part)| (part, speed));
+                self.last[beam] = nearest.map(|(_, passing)| passing);
             }
         }
         self.beams = beams;
-        let mut parts: Vec<usize> = self.active.iter().map(|(cut, _)| cut.part).collect();
-        parts.sort_unstable();
-        parts.dedup();
+        self.shown_queue = self.queued;
         let [barrier_a, barrier_b] = beams;
         let Surroundings { sealed, parts: held, .. } = self.told;
-        device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts: held + parts.len() as u32, queued: 0 });
+        let here = self.riders.iter().filter(|rider| !self.script.lane.is_beyond(rider)).count() as u32;
+        device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts: held + here, queued: self.queued });
     }
 }
 
-/// Moves a device, and returns how far its belt carried, m.
-fn moved(device: &mut dyn Device, seconds: f64) -> f64 {
-    device.advance(seconds);
-    match device.role() {
-        Role::Carries(belt) => belt.displacement,
-        _ => 0.0,
+/// Puts the part of a cut on the belt, if it is not there.
+fn put_on(riders: &mut Vec<Rider>, cut: &Cut) {
+    let centre = |length: f64| if length.is_finite() { cut.front - 0.5 * cut.way * length } else { cut.front };
+    match riders.iter_mut().find(|rider| rider.part == cut.part) {
+        // One of its cuts may say how long it is where the other does not.
+        Some(rider) if rider.length.is_infinite() && cut.length.is_finite() => {
+            rider.centre = centre(cut.length) + rider.gone;
+            rider.length = cut.length;
+        }
+        Some(_) => {}
+        None => {
+            let (part, length) = (cut.part, cut.length);
+            let centre = centre(length);
+            riders.push(Rider { part, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0 });
+        }
     }
 }

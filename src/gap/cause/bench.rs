@@ -143,7 +143,7 @@ impl<'a> Bench<'a> {
         if self.is_stopped() {
             return None;
         }
-        let mut residuals = self.subject.score(&self.predict(set, at)?).residuals();
+        let mut residuals = self.subject.residuals(&self.predict(set, at)?);
         residuals.extend(self.strain(set, at));
         Some(residuals)
     }

@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
+use super::blur;
 use super::candidate::Candidate;
 use super::library;
 use super::unseen::unseen;
@@ -190,11 +191,12 @@ pub fn rung(
     let score = bench.subject.score(&prediction);
     let mut library = candidates(bench, &prediction, &score, is_asked);
     library.retain(|candidate| is_admitted(candidate) && !below.set.iter().any(|there| there.is_same(candidate)));
+    let blurred = blur::blurred(bench.subject, &score);
     let tried = AtomicUsize::new(0);
     let best = Mutex::new((0.0, "none yet".to_owned()));
     // One candidate may take as long as many others: each is a piece of work of its own.
     let fitted = library.par_iter().with_max_len(1).filter_map(|candidate| {
-        let trial = beside(bench, below, candidate, excess);
+        let trial = beside(bench, &blurred, below, candidate, excess);
         let explains = trial.as_ref().map_or(0.0, |trial| (below.cost - trial.cost) / excess);
         let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
         if explains > best.0 {
@@ -232,7 +234,7 @@ fn candidates(
 }
 
 /// The candidate beside the effects of `below`, with only its own parameters free; closely where it promises something.
-fn beside(bench: &Bench<'_>, below: &Trial, candidate: &Candidate, excess: f64) -> Option<Trial> {
+fn beside(bench: &Bench<'_>, blurred: &[Subject], below: &Trial, candidate: &Candidate, excess: f64) -> Option<Trial> {
     let set: Vec<Candidate> = below.set.iter().chain([candidate]).cloned().collect();
     let own: usize = below.parameters();
     let (held, nuisances) = below.at.split_at(own);
@@ -241,7 +243,10 @@ fn beside(bench: &Bench<'_>, below: &Trial, candidate: &Candidate, excess: f64) 
     let all = |at: &[f64]| [held, at, &nuisances].concat();
     let residuals = |at: &[f64]| bench.residuals(&set, &all(at));
     let ranges: Vec<_> = candidate.ranges().collect();
-    let mut scored = score_starts(&residuals, candidate, below.cost);
+    // Of edges alone, those of the starts that lead there are enough.
+    let sought = if ranges.is_empty() { None } else { blur::starts(bench, blurred, (&set, candidate), &all) };
+    let sought = Candidate { starts: sought.unwrap_or_else(|| candidate.starts.clone()), ..candidate.clone() };
+    let mut scored = score_starts(&residuals, &sought, below.cost);
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (cost, first) = scored.first()?;
     let mut best = (*cost, (*first).clone());

@@ -1,6 +1,7 @@
 //! Which effect: candidates from the library, a ladder of them, their classes, intervals and what they leave.
 
 mod bench;
+mod blur;
 mod candidate;
 mod class;
 mod intervals;

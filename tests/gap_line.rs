@@ -1,0 +1,239 @@
+//! The de-palletization line with an effect on one of its devices: where it is found, and what it is taken for.
+//!
+//! The machine is our own engine with the effect added; what is diagnosed knows its signals alone. The table of all effects that
+//! the line can show is printed by
+//!
+//!     cargo test --release --test gap_line -- --ignored --nocapture
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+use std::time::Duration;
+
+use kinetwin::gap::diagnosis::{Options, diagnose, kept_back};
+use kinetwin::gap::report::{Report, Verdict};
+use kinetwin::gap::{Recording, Study, locate};
+use kinetwin::plant::Plant;
+use kinetwin::run::{self, Connect, RecordTo, Speed, model};
+use kinetwin::trace::Reader;
+
+const LINE: &str = "models/depalletizer";
+
+/// An effect on a device of the line.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    device: &'static str,
+    place: &'static str,
+    effect: &'static str,
+    component: &'static str,
+    parameter: &'static str,
+    value: f64,
+}
+
+const fn case(
+    device: &'static str,
+    (place, effect, component): (&'static str, &'static str, &'static str),
+    parameter: &'static str,
+    value: f64,
+) -> Case {
+    Case { device, place, effect, component, parameter, value }
+}
+
+impl Case {
+    fn xml(&self) -> String {
+        let Case { place, effect, component, parameter, value, .. } = self;
+        let component = if component.is_empty() { String::new() } else { format!(" component=\"{component}\"") };
+        format!(
+            r#"<effect place="{place}" kind="{effect}"{component}><parameter name="{parameter}" value="{value}"/></effect>"#
+        )
+    }
+}
+
+/// The line under its automation for some seconds.
+fn record(plant: &Plant, case: Option<&Case>, seconds: u64) -> Recording {
+    let folder = tempfile::tempdir().expect("a folder");
+    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join(LINE).join("plant.xml");
+    let mut text = std::fs::read_to_string(base).expect("the line's plant");
+    if let Some(case) = case {
+        let begin = format!("<instance name=\"{}\"", case.device);
+        let (before, after) = text.split_once(&begin).expect("the instance");
+        let after = after.replacen("</instance>", &format!("{}</instance>", case.xml()), 1);
+        text = format!("{before}{begin}{after}");
+    }
+    let model = folder.path().join("plant.xml");
+    std::fs::write(&model, text).expect("a plant");
+    let path = folder.path().join("line.cps.jsonl");
+    let options = run::Options {
+        connect: Some(Connect::Embedded),
+        seed: 5,
+        speed: Speed::Max,
+        duration: Some(Duration::from_secs(seconds)),
+        record: Some(RecordTo { path: path.clone(), replace: false }),
+        ..run::Options::new(model.to_str().expect("a path"))
+    };
+    run::start(&options).expect("the run starts").finish().expect("the run ends");
+    let reader = Reader::new("line", BufReader::new(File::open(&path).expect("it opens"))).expect("a trace");
+    Recording::read(plant, "line", reader, &[]).expect("a recording of the line")
+}
+
+/// The devices that have a gap of their own.
+fn located(case: Option<&Case>, seconds: u64) -> Vec<String> {
+    let plant = model::load(LINE).expect("the line");
+    let study = Study::new(&plant, &[record(&plant, case, seconds)]).expect("a study");
+    let located = locate(&study).devices.into_iter().filter(|device| device.own);
+    located.map(|device| device.device).collect()
+}
+
+#[track_caller]
+fn check_where(cases: &[Case], seconds: u64) {
+    for case in cases {
+        assert_eq!(located(Some(case), seconds), [case.device], "{case:?}");
+    }
+}
+
+fn diagnosed(case: &Case, seconds: u64, effects: &[&str]) -> Report {
+    let plant = model::load(LINE).expect("the line");
+    let split = kept_back(&[record(&plant, Some(case), seconds)]);
+    let options = Options {
+        is_asked: &|id| effects.is_empty() || effects.contains(&id),
+        is_meant: &|name| name == case.device,
+        is_stopped: &|| false,
+        tell: &|_| {},
+    };
+    let report = diagnose(&plant, &split.train, &split.held_out, &options).expect("a diagnosis").report;
+    assert_eq!(report.flaws(), Vec::<String>::new(), "{case:?}: {}", report.to_json());
+    report
+}
+
+/// Whether the effect stands in the answer's class.
+fn is_named(report: &Report, case: &Case) -> bool {
+    let is_it = |component: &Option<String>| component.as_deref().unwrap_or_default() == case.component;
+    let of_class = report.cause.iter().flat_map(|cause| &cause.class);
+    of_class.into_iter().any(|member| member.effect == case.effect && is_it(&member.component))
+}
+
+/// What a belt may do that its barriers see later.
+const LATE: [&str; 5] = ["belt-slip", "dead-time", "on-delay", "off-delay", "transfer-slip"];
+
+#[track_caller]
+fn check_cause(case: &Case) {
+    let report = diagnosed(case, 40, &LATE);
+    assert!(is_named(&report, case) && report.verdict != Verdict::Partial, "{case:?}: {}", report.to_json());
+    let found = report.cause.iter().filter(|cause| cause.effect == case.effect).flat_map(|cause| &cause.parameters);
+    let found = found.into_iter().find(|found| found.name == case.parameter).expect("its parameter").value;
+    assert!((found - case.value).abs() < 0.05 * case.value, "{case:?}: {found}");
+    assert!(report.shrink.ratio.is_some_and(|ratio| ratio < 0.1), "{case:?}: {}", report.to_json());
+}
+
+#[test]
+fn three_minutes_of_a_line_as_its_model_has_it_show_no_gap() {
+    assert_eq!(located(None, 180), [""; 0]);
+}
+
+const SLIP: Case = case("Conveyor5", ("transmission", "belt-slip", ""), "ratio", 0.06);
+const LATE_SENSOR: Case = case("Conveyor6", ("sensor", "on-delay", "lightBarrierB"), "time", 0.08);
+const TRANSFER: Case = case("Conveyor4", ("process", "transfer-slip", ""), "ratio", 0.3);
+
+#[test]
+fn a_belt_that_slips_is_no_late_barrier() {
+    check_cause(&SLIP);
+}
+
+#[test]
+fn a_late_barrier_is_no_belt_that_slips() {
+    check_cause(&LATE_SENSOR);
+}
+
+#[test]
+fn who_is_late_upstream_is_named_and_nobody_who_follows() {
+    check_where(
+        &[
+            case("Conveyor3", ("actuator", "first-order-lag", ""), "time_constant", 0.15),
+            case("Conveyor3", ("command-link", "dead-time", ""), "time", 0.12),
+            case("Conveyor3", ("actuator", "coasting", ""), "deceleration", 0.4),
+            case("Conveyor3", ("process", "part-slip", ""), "acceleration", 0.4),
+            case("Conveyor4", ("transmission", "scale-error", ""), "ratio", 0.04),
+        ],
+        45,
+    );
+}
+
+#[test]
+fn neither_a_curve_nor_a_sensor_is_taken_for_its_neighbour() {
+    check_where(
+        &[
+            case("Curve1", ("transmission", "belt-slip", ""), "ratio", 0.06),
+            case("Curve1", ("sensor", "on-delay", "lightBarrierB"), "time", 0.08),
+            case("Conveyor5", ("sensor", "off-delay", "lightBarrierB"), "time", 0.08),
+            case("Conveyor6", ("actuator", "velocity-limit", ""), "limit", 0.5),
+        ],
+        45,
+    );
+}
+
+/// A pusher takes parts out of a beam of the belt that it stands beside: when it is late, they leave late.
+#[test]
+fn a_late_pusher_is_not_taken_for_the_belt_that_it_pushes_from() {
+    check_where(
+        &[
+            case("Pusher1", ("actuator", "velocity-limit", ""), "limit", 1.7),
+            case("Pusher2", ("command-link", "dead-time", ""), "time", 0.06),
+        ],
+        45,
+    );
+}
+
+/// All that the line can show.
+const SWEEP: [Case; 26] = [
+    SLIP,
+    LATE_SENSOR,
+    TRANSFER,
+    case("Curve1", ("transmission", "belt-slip", ""), "ratio", 0.06),
+    case("Conveyor7", ("transmission", "scale-error", ""), "ratio", 0.04),
+    case("Conveyor5", ("actuator", "gain-error", ""), "gain", 0.95),
+    case("Conveyor3", ("actuator", "first-order-lag", ""), "time_constant", 0.15),
+    case("Conveyor3", ("actuator", "acceleration-limit", ""), "limit", 0.5),
+    case("Conveyor6", ("actuator", "velocity-limit", ""), "limit", 0.5),
+    case("Conveyor3", ("command-link", "dead-time", ""), "time", 0.12),
+    case("Conveyor3", ("actuator", "switch-on-delay", ""), "time", 0.1),
+    case("Conveyor3", ("actuator", "switch-off-delay", ""), "time", 0.1),
+    case("Conveyor3", ("actuator", "coasting", ""), "deceleration", 0.4),
+    case("Conveyor8", ("actuator", "direction-asymmetry", ""), "asymmetry", 0.08),
+    case("Conveyor5", ("sensor", "off-delay", "lightBarrierB"), "time", 0.08),
+    case("Conveyor6", ("sensor", "hysteresis", "lightBarrierB"), "width", 0.03),
+    case("Conveyor6", ("sensor", "blind-range", "lightBarrierB"), "length", 0.03),
+    case("Conveyor3", ("process", "part-slip", ""), "acceleration", 0.4),
+    case("Conveyor3", ("process", "back-pressure", ""), "coefficient", 0.2),
+    case("LoadingBay5", ("process", "part-length-error", ""), "length", 0.03),
+    case("LoadingBay7", ("process", "part-spacing-error", ""), "time", 1.5),
+    case("Pusher1", ("actuator", "velocity-limit", ""), "limit", 1.7),
+    case("Pusher1", ("actuator", "load-dependent-speed", ""), "coefficient", 0.1),
+    case("Pusher2", ("command-link", "dead-time", ""), "time", 0.06),
+    case("Robot", ("actuator", "acceleration-limit", "Y"), "limit", 3.2),
+    case("Gripper1", ("process", "vacuum-build-up", ""), "time", 0.1),
+];
+
+#[test]
+#[ignore = "half an hour: prints the table of what each effect on the line is taken for, all effects being looked for"]
+fn what_each_effect_on_the_line_is_taken_for() {
+    for case in SWEEP {
+        let found = located(Some(&case), 60).join(", ");
+        let report = diagnosed(&case, 60, &[]);
+        let causes = report.cause.iter().map(|cause| {
+            let values = cause.parameters.iter().map(|found| format!("{} {:.4}", found.name, found.value));
+            let class = cause.class.iter().map(|member| member.effect.as_str()).collect::<Vec<_>>().join("/");
+            format!("{class} {}", values.collect::<Vec<_>>().join(" "))
+        });
+        println!(
+            "| {} {} {} {} {} | {found} | {} | {} | {} |",
+            case.device,
+            case.effect,
+            case.component,
+            case.parameter,
+            case.value,
+            report.verdict,
+            causes.collect::<Vec<_>>().join("; "),
+            if is_named(&report, &case) { "right" } else { "" },
+        );
+    }
+}
