@@ -100,8 +100,9 @@ impl Location {
 /// Looks where the gaps are.
 pub fn locate(study: &Study) -> Location {
     let scores = study.scores();
-    let each = study.subjects.iter().zip(&study.nominal).zip(&scores);
-    let mut devices: Vec<Located> = each.map(|((subject, nominal), score)| located(subject, nominal, score)).collect();
+    let each = study.subjects.iter().zip(&study.bare).zip(&scores);
+    let mut devices: Vec<Located> =
+        each.map(|((subject, bare), score)| located(subject, &bare.prediction, score)).collect();
     let excess = |device: &Located| device.signals.iter().map(|signal| signal.excess).sum::<f64>();
     let total: f64 = devices.iter().filter(|device| device.own).map(excess).sum();
     for device in devices.iter_mut().filter(|device| device.own) {
@@ -111,13 +112,22 @@ pub fn locate(study: &Study) -> Location {
     Location { devices }
 }
 
+/// The greatest of a device's statistics under a prediction, which a chance keeps below [`THRESHOLD`].
+pub fn evidence(subject: &Subject, prediction: &Prediction) -> f64 {
+    let score = subject.score(prediction);
+    signals(subject, prediction, &score).iter().map(|signal| signal.evidence).fold(0.0, f64::max)
+}
+
+fn signals(subject: &Subject, nominal: &Prediction, score: &Score) -> Vec<LocatedSignal> {
+    let of = |place: usize| {
+        let of: Vec<&SignalScore> = score.signals.iter().filter(|signal| signal.signal == place).collect();
+        (!of.is_empty()).then(|| signal(subject, nominal, place, &of))
+    };
+    (0..subject.signals.len()).filter_map(of).collect()
+}
+
 fn located(subject: &Subject, nominal: &Prediction, score: &Score) -> Located {
-    let signals: Vec<LocatedSignal> = (0..subject.signals.len())
-        .filter_map(|place| {
-            let of: Vec<&SignalScore> = score.signals.iter().filter(|signal| signal.signal == place).collect();
-            (!of.is_empty()).then(|| signal(subject, nominal, place, &of))
-        })
-        .collect();
+    let signals = signals(subject, nominal, score);
     let evidence = signals.iter().map(|signal| signal.evidence).fold(0.0, f64::max);
     let own = evidence > THRESHOLD;
     let regimes = if own { regimes(subject, nominal, score) } else { Vec::new() };
@@ -190,7 +200,8 @@ fn with_motion(score: &SignalScore, track: &Track, predicted: &[f64], floor: Flo
     if count < 50 || predicted.len() != count || track.values.len() != count {
         return 0.0;
     }
-    let unit = (score.floor_cost.0 / counted(level.cost.as_slice()).max(1.0)).max(0.02);
+    // Noise that remembers goes further with a motion than it looks: each sample counts less, and their sum scatters more.
+    let unit = (score.floor_cost.0 / counted(level.cost.as_slice()).max(1.0) / floor.share()).max(0.02);
     let gain = |regressor: &[f64]| {
         let mean = regressor.iter().sum::<f64>() / count as f64;
         let pairs = || regressor.iter().zip(&level.residual).map(|(x, r)| (x - mean, *r));

@@ -7,6 +7,7 @@ use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::parts::shifted;
 use super::prediction::PredictedEdge;
 use super::samples::{Sample, Samples};
+use super::task::MOST_FILTER_S;
 use super::tolerance::Weighed;
 use super::track::Track;
 
@@ -168,7 +169,8 @@ impl SignalScore {
             floors += floor.rms(sample.slope).powi(2);
             if !sample.is_rest {
                 let (mean, variance) = costs.at((sample.predicted - lattice) / floor.step);
-                floor_cost = (floor_cost.0 + weight * mean, floor_cost.1 + weight * weight * variance);
+                floor_cost =
+                    (floor_cost.0 + weight * mean, floor_cost.1 + weight * weight * variance * floor.scatter());
             }
         });
         let count = level.at.len().max(1) as f64;
@@ -193,7 +195,8 @@ impl SignalScore {
         shifts: &[f64],
         sigma: f64,
     ) -> Self {
-        let pairs = pair(track, predicted, sigma);
+        let mut pairs = pair(track, predicted, sigma);
+        leave_out_pulses(&mut pairs, predicted);
         let kept = pairs.iter().map(|pair| edge(track, predicted, shifts, pair, sigma));
         let edges: Vec<EdgeScore> = kept.flatten().collect();
         let errors: Vec<f64> =
@@ -216,6 +219,20 @@ impl SignalScore {
             floor: edges_floor(&edges, track.grid.cycle),
             level: None,
             edges,
+        }
+    }
+}
+
+/// Leaves out predicted pulses that nobody recorded and that an input's filter may hide.
+fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge]) {
+    let alone = |pair: &Pair| pair.predicted.filter(|_| pair.recorded.is_none());
+    let mut at = 0;
+    while at + 1 < pairs.len() {
+        let both = alone(&pairs[at]).zip(alone(&pairs[at + 1]));
+        if both.is_some_and(|(on, off)| off == on + 1 && predicted[off].at - predicted[on].at < MOST_FILTER_S) {
+            pairs.drain(at..at + 2);
+        } else {
+            at += 1;
         }
     }
 }
@@ -271,4 +288,19 @@ fn edge_floor(cycle: f64, sigma: f64, at: f64) -> (f64, f64) {
         square += share * cost * cost;
     }
     (mean, (square - mean * mean).max(1e-6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pulse_that_a_filter_hides_is_no_difference() {
+        let edge = |at: f64, to: f64| PredictedEdge { at, to, index: 0, part: None };
+        let predicted = [edge(1.0, 1.0), edge(1.003, 0.0), edge(2.0, 1.0), edge(2.5, 0.0)];
+        let alone = |at: usize| Pair { recorded: None, predicted: Some(at) };
+        let mut pairs: Vec<Pair> = (0..4).map(alone).collect();
+        leave_out_pulses(&mut pairs, &predicted);
+        assert_eq!(pairs, [alone(2), alone(3)]);
+    }
 }

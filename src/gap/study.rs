@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::cause::Bare;
 use super::clocks::{self, ClockOffset};
 use super::grid::Grid;
 use super::layout::Layout;
@@ -13,7 +14,7 @@ use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
 use super::score::{Score, SignalScore};
 use super::subject::{Subject, Timing};
-use super::surroundings;
+use super::surroundings::{self, Sizes};
 use super::task::{self, Task};
 use super::tick::{self, Vote};
 use crate::effect::EffectError;
@@ -36,6 +37,8 @@ pub struct Study {
     pub subjects: Vec<Subject>,
     /// What the model alone predicts of each, in their order.
     pub nominal: Vec<Prediction>,
+    /// The same with its nominal parameters as they fit best within their tolerances, which is no gap.
+    pub bare: Vec<Bare>,
     /// The tick of the machine in each recording, s; 0: none was found.
     pub ticks: Vec<f64>,
     /// When the machine looked at its state, by recording.
@@ -53,12 +56,12 @@ impl Study {
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
         if recordings.iter().all(|recording| recording.clocks.is_empty()) {
-            return Study::of_one_clock(plant, recordings);
+            return Ok(Study::of_one_clock(plant, recordings)?.within_tolerances());
         }
         let aligned = recordings.iter().map(|recording| clocks::align(plant, recording));
         let aligned = aligned.collect::<Result<Vec<_>, _>>()?;
         let (recordings, offsets): (Vec<Recording>, Vec<_>) = aligned.into_iter().unzip();
-        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings)? })
+        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings)?.within_tolerances() })
     }
 
     /// The same, of recordings whose stamps are taken as they are.
@@ -103,7 +106,15 @@ impl Study {
         }
         let tasks =
             (0..recordings.len()).map(|run| subjects.first().map_or(Task::default(), |of| of.runs[run].task)).collect();
-        Ok(Study { subjects, nominal, ticks, tasks, grids, clocks: vec![Vec::new(); recordings.len()] })
+        Ok(Study {
+            subjects,
+            nominal,
+            bare: Vec::new(),
+            ticks,
+            tasks,
+            grids,
+            clocks: vec![Vec::new(); recordings.len()],
+        })
     }
 
     /// The same for recordings that `trained` has not seen. The devices that are taken up again there are replayed in one go
@@ -118,6 +129,8 @@ impl Study {
                 study.nominal[place] = subject.predict(&[], &Overrides::none())?;
             }
         }
+        let each = study.subjects.iter().zip(&study.nominal).zip(&trained.bare);
+        study.bare = each.map(|((subject, nominal), bare)| bare.beside(subject, nominal)).collect();
         Ok(study)
     }
 
@@ -126,9 +139,16 @@ impl Study {
         self.subjects.iter().find(|subject| subject.name == name)
     }
 
-    /// What the model alone costs, subject by subject.
+    /// What the model alone costs, as well as its tolerances let it stand, subject by subject.
     pub fn scores(&self) -> Vec<Score> {
-        self.subjects.par_iter().zip(&self.nominal).map(|(subject, nominal)| subject.score(nominal)).collect()
+        self.subjects.par_iter().zip(&self.bare).map(|(subject, bare)| subject.score(&bare.prediction)).collect()
+    }
+
+    /// The same with the nominal parameters fitted.
+    fn within_tolerances(mut self) -> Study {
+        let each = self.subjects.par_iter().zip(&self.nominal).with_max_len(1);
+        self.bare = each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
+        self
     }
 }
 
@@ -165,7 +185,9 @@ fn find_task(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
         });
     }
     let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
-    let filter_s = task::find_filter(subjects, &nominal, run);
+    let each = subjects.par_iter().zip(&nominal).with_max_len(1);
+    let bare: Vec<Bare> = each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
+    let filter_s = if main.is_rebuilt { task::find_filter(subjects, &bare, run) } else { 0.0 };
     if filter_s > 0.0 {
         subjects.iter_mut().for_each(|subject| {
             let task = subject.runs[run].task;
@@ -194,7 +216,7 @@ fn doubt_those_with_gaps(
     layout: &Layout,
     subjects: &mut [Subject],
     nominal: &mut [Prediction],
-    sizes: &[[f64; 2]],
+    sizes: &Sizes,
 ) -> Result<(), EffectError> {
     let is_off = |signal: &SignalScore| signal.cost > 18.0 + 2.0 * signal.floor_cost.0;
     let trusted = |(subject, nominal): (&Subject, &Prediction)| !subject.score(nominal).signals.iter().any(is_off);

@@ -17,7 +17,7 @@ use super::restarts::Restarts;
 use super::samples::Samples;
 use super::score::{Score, SignalScore};
 use super::study::Grids;
-use super::surroundings;
+use super::surroundings::{self, Sizes};
 use super::task::Task;
 use super::tolerance::rests;
 use super::track::Track;
@@ -369,7 +369,7 @@ impl Subject {
     }
 
     /// Finds out what surrounded the device in each run: see [`surroundings`].
-    pub(super) fn surround(&mut self, sizes: &[[f64; 2]], beside: &[Beside]) -> Result<(), EffectError> {
+    pub(super) fn surround(&mut self, sizes: &Sizes, beside: &[Beside]) -> Result<(), EffectError> {
         let device = self.device(&[], &Overrides::none())?;
         for both in beside.iter().zip(&mut self.runs) {
             surroundings::surround(self.kind, &self.parameters, &self.signals, device.as_ref(), sizes, both);
@@ -431,12 +431,17 @@ impl Subject {
         }
     }
 
+    /// Whether a signal is a contact, which comes through the filter of an input; a word does not.
+    pub(super) fn is_filtered(&self, info: &SignalInfo) -> bool {
+        self.kind.ports[info.port].ty == PortType::Boolean
+    }
+
     /// How far behind its instant a signal is looked at, s. A drive's force is that of the tick that follows: in its middle; what
     /// is old or filtered is of an instant before.
     fn lead(&self, info: &SignalInfo, run: &Run) -> f64 {
         let is_force = self.kind.name == "kinetwin.ServoAxis" && info.property == "force";
         let ahead = if is_force { 0.5 * run.sample_tick } else { 0.0 };
-        let filter = if info.kind == Kind::Edge { run.task.filter_s } else { 0.0 };
+        let filter = if self.is_filtered(info) { run.task.filter_s } else { 0.0 };
         ahead - run.task.age_s - filter
     }
 }

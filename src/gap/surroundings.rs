@@ -17,12 +17,22 @@ use crate::device::{Device, Role, Surface};
 use crate::plant::{ParameterValue, Parameters, Plant};
 use crate::prototype::kind::KindDescriptor;
 
-/// Length and width of every part that may come in this plant, m.
-pub(super) fn part_sizes(plant: &Plant) -> Vec<[f64; 2]> {
+/// The parts that may come in a plant.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sizes {
+    /// Length and width, m.
+    pub each: Vec<[f64; 2]>,
+    /// How far one may be off, as a share of it.
+    pub tolerance: f64,
+}
+
+/// Every part that may come in this plant.
+pub(super) fn part_sizes(plant: &Plant) -> Sizes {
     let tasks = plant.instances.iter().flat_map(|instance| &instance.tasks);
     let bays = tasks.filter(|task| task.kind.name == "kinetwin.LoadingBay");
-    let named = bays.flat_map(|task| ["size", "loadSize"].map(|name| task.parameters.0.get(name)));
-    let made = named.flatten().filter_map(|parameter| match &parameter.value {
+    let named = bays.flat_map(|task| ["size", "loadSize"].map(|name| task.parameters.0.get(name))).flatten();
+    let tolerance = named.clone().map(|parameter| parameter.tolerance).fold(0.0, f64::max);
+    let made = named.filter_map(|parameter| match &parameter.value {
         ParameterValue::Numbers(numbers) if numbers.len() == 3 => Some([numbers[0], numbers[1]]),
         _ => None,
     });
@@ -30,7 +40,7 @@ pub(super) fn part_sizes(plant: &Plant) -> Vec<[f64; 2]> {
     let mut sizes: Vec<[f64; 2]> = made.chain(standing).filter(|size| size[0] > 0.0).collect();
     sizes.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     sizes.dedup();
-    sizes
+    Sizes { each: sizes, tolerance }
 }
 
 /// Sets a run's script, and what the edges of its barriers are to a score.
@@ -39,15 +49,15 @@ pub(super) fn surround(
     parameters: &Parameters,
     signals: &[SignalInfo],
     device: &dyn Device,
-    sizes: &[[f64; 2]],
+    sizes: &Sizes,
     (beside, run): (&Beside, &mut Run),
 ) {
     let script = match device.role() {
         Role::Carries(belt) => {
             let geometry = Geometry {
                 beams: belt.barriers,
-                lengths: lengths(&belt.surface, sizes),
-                tolerance: tolerance(&belt.surface),
+                lengths: lengths(&belt.surface, &sizes.each),
+                tolerance: tolerance(&belt.surface, sizes),
                 lane: beside.lane.clone(),
                 hands: beside.hands.clone(),
             };
@@ -87,12 +97,15 @@ fn lengths(surface: &Surface, sizes: &[[f64; 2]]) -> Vec<f64> {
 }
 
 /// How far a part's edges may be off because it lies askew or turns, m: measured on the line as its model has it, where boxes
-/// come onto a curve askew, and leave it so.
-fn tolerance(surface: &Surface) -> f64 {
-    match surface {
+/// come onto a curve askew, and leave it so; and because it is longer or shorter than it should be, a tolerance being two standard
+/// deviations.
+fn tolerance(surface: &Surface, sizes: &Sizes) -> f64 {
+    let askew: f64 = match surface {
         Surface::Straight { .. } => 1e-3,
         Surface::Curve { .. } => 5e-3,
-    }
+    };
+    let longest = sizes.each.iter().flatten().copied().fold(0.0, f64::max);
+    askew.hypot(0.5 * sizes.tolerance * longest)
 }
 
 /// The places of the barriers among the signals.
@@ -121,6 +134,7 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run
         }
     };
     let (script, origins) = parts::assign(geometry, tracks, &travel);
+    let script = Script { beams: geometry.beams, ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
             track.origins = origins;

@@ -11,9 +11,10 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::cause::nuisances;
+use super::cause::{Bare, Nuisance, nuisances};
 use super::edges::interval;
 use super::grid::median;
+use super::locate::THRESHOLD;
 use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
 use super::subject::{Subject, beam_of};
@@ -28,18 +29,24 @@ pub const MOST_FILTER_S: f64 = 6e-3;
 const TASKS_S: [f64; 7] = [0.0, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3];
 /// What part of a cycle a task may be at most.
 const OF_CYCLE: f64 = 0.2;
-/// Phases that are tried, in parts of a task; then halfway to the neighbours of the best, so many times.
-const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
-const HALVINGS: u32 = 3;
-/// Steps of the age and of the filter, s.
+/// How many phases of a task are tried; then nearer and nearer to the best, so many times.
+const PHASES: u32 = 16;
+const HALVINGS: u32 = 9;
+/// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
+const CENTRINGS: u32 = 2;
+const FURTHEST: f64 = 3.0;
+/// Steps of the age and of the filter, s, and into how many the best one's neighbourhood is divided.
 const STEP_S: f64 = 2e-5;
+const FINER: i32 = 10;
 const FILTER_STEP_S: f64 = 1e-4;
-/// Below this mean square in floors a device is explained.
-const EXPLAINED: f64 = 1.3;
+/// A mean square in floors that no device comes below for any other reason than that a floor is too high.
+const LEAST_SQUARE: f64 = 0.2;
+/// What a task's cycle and its phase have to gain, in deviance.
+const OF_A_TASK: f64 = 12.0;
 /// How many devices have to ask for the same.
 const LEAST_DEVICES: usize = 2;
-/// How much nearer each of them must come, in mean squares.
-const NEARER: f64 = 0.6;
+/// How much nearer each of them must come, in deviance.
+const NEARER: f64 = 4.0;
 /// How far an edge may be off, standard deviation, s, and how much a stray counts.
 const EDGE_SIGMA_S: f64 = 3e-4;
 const STRAY: f64 = 9.0;
@@ -68,55 +75,84 @@ impl Task {
 }
 
 /// Finds what is common in a run, from subjects whose floors are known. `None` where nothing has to be found.
+///
+/// The likeliest task is found, each device's scale of error being its own: n·ln(squares), n the samples that move, each
+/// as much as its noise lets it tell. So a device with a gap of its own, whose squares are large whatever the task, has a small say.
 pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Task>, EffectError> {
     let voters = subjects.par_iter().map(|subject| Voter::new(subject.only(run))).collect::<Result<Vec<_>, _>>()?;
-    let voters: Vec<Voter> = voters.into_iter().flatten().collect();
-    let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
-    let before: Vec<f64> = now.iter().map(|moments| moments.mean_square(0.0)).collect();
-    if voters.len() < LEAST_DEVICES || median(&before).is_none_or(|middle| middle < EXPLAINED) {
+    let mut voters: Vec<Voter> = voters.into_iter().flatten().collect();
+    if voters.len() < LEAST_DEVICES {
         return Ok(None);
     }
-    let mut best = Best { cost: f64::INFINITY, task: Task::default(), squares: Vec::new() };
-    for every_s in TASKS_S.into_iter().filter(|every| *every <= OF_CYCLE * cycle + 1e-12) {
-        let phases: &[f64] = if every_s > 0.0 { &PHASES } else { &[0.0] };
-        for phase in phases {
-            best.weigh(&voters, Task { every_s, phase_s: phase * every_s, ..Task::default() })?;
-        }
-    }
-    for halving in 1..=HALVINGS {
-        let found = best.task;
-        let step = 0.25 * found.every_s / f64::from(1 << halving);
-        for phase_s in [found.phase_s - step, found.phase_s + step] {
-            let phase_s = phase_s.rem_euclid(found.every_s.max(f64::MIN_POSITIVE));
-            if found.every_s > 0.0 {
-                best.weigh(&voters, Task { phase_s, age_s: 0.0, ..found })?;
-            }
-        }
-    }
-    let nearer = before.iter().zip(&best.squares).filter(|(before, after)| **after < NEARER * **before).count();
-    Ok((nearer >= LEAST_DEVICES).then_some(best.task))
+    voters.par_iter_mut().try_for_each(|voter| voter.centre(Task::default()))?;
+    let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
+    let before: Vec<f64> = now.iter().map(|moments| moments.cost(0.0)).collect();
+    let mut best = Best::of(&voters, cycle)?;
+    voters.par_iter_mut().try_for_each(|voter| voter.centre(best.task))?;
+    best = best.nearby(&voters)?;
+    let nearer = before.iter().zip(&best.costs).filter(|(before, after)| *before - *after > NEARER).count();
+    let gain = before.iter().sum::<f64>() - best.cost;
+    Ok((nearer >= LEAST_DEVICES && gain > THRESHOLD).then_some(best.task))
 }
 
 /// The best task so far.
 struct Best {
+    /// What it costs, with what its parameters cost.
     cost: f64,
     task: Task,
-    /// What is left of each device, a mean square in floors.
-    squares: Vec<f64>,
+    /// What each device costs.
+    costs: Vec<f64>,
 }
 
 impl Best {
+    fn none() -> Best {
+        Best { cost: f64::INFINITY, task: Task::default(), costs: Vec::new() }
+    }
+
+    /// The best of all tasks.
+    fn of(voters: &[Voter], cycle: f64) -> Result<Best, EffectError> {
+        let mut best = Best::none();
+        for every_s in TASKS_S.into_iter().filter(|every| *every <= OF_CYCLE * cycle + 1e-12) {
+            let phases = if every_s > 0.0 { PHASES } else { 1 };
+            for phase in 0..phases {
+                let phase_s = f64::from(phase) / f64::from(PHASES) * every_s;
+                best.weigh(voters, Task { every_s, phase_s, ..Task::default() })?;
+            }
+        }
+        best.nearby(voters)
+    }
+
+    /// The best task with its phase between its neighbours, from voters that may have changed since.
+    fn nearby(self, voters: &[Voter]) -> Result<Best, EffectError> {
+        let mut best = Best::none();
+        best.weigh(voters, Task { age_s: 0.0, ..self.task })?;
+        for halving in 0..HALVINGS {
+            let found = best.task;
+            let step = found.every_s / f64::from(PHASES << halving);
+            for phase_s in [-2.0, -1.0, 1.0, 2.0].map(|steps| found.phase_s + steps * step) {
+                let phase_s = phase_s.rem_euclid(found.every_s.max(f64::MIN_POSITIVE));
+                if found.every_s > 0.0 {
+                    best.weigh(voters, Task { phase_s, age_s: 0.0, ..found })?;
+                }
+            }
+        }
+        Ok(best)
+    }
+
     /// Tries a task with every age.
     fn weigh(&mut self, voters: &[Voter], task: Task) -> Result<(), EffectError> {
         let each = voters.par_iter().map(|voter| voter.moments(Some(task))).collect::<Result<Vec<_>, _>>()?;
-        for step in 0..=(MOST_AGE_S / STEP_S) as u32 {
-            let age_s = f64::from(step) * STEP_S;
-            let squares: Vec<f64> = each.iter().map(|moments| moments.mean_square(age_s)).collect();
-            // A device with a gap of its own has a small say.
-            let cost = squares.iter().map(|square| square.ln_1p()).sum::<f64>();
-            if cost < self.cost {
-                *self = Best { cost, task: Task { age_s, ..task }, squares };
-            }
+        let total = |age_s: f64| each.iter().map(|moments| moments.cost(age_s)).sum::<f64>();
+        let least = |ages: &mut dyn Iterator<Item = f64>| {
+            let costs = ages.filter(|age| (0.0..=MOST_AGE_S).contains(age)).map(|age| (total(age), age));
+            costs.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0.0))
+        };
+        let (_, near) = least(&mut (0..=(MOST_AGE_S / STEP_S) as i32).map(|step| f64::from(step) * STEP_S));
+        let (cost, age_s) = least(&mut (-FINER..=FINER).map(|step| near + f64::from(step) * STEP_S / f64::from(FINER)));
+        let cost = cost + if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
+        if cost < self.cost {
+            let costs = each.iter().map(|moments| moments.cost(age_s)).collect();
+            *self = Best { cost, task: Task { age_s, ..task }, costs };
         }
         Ok(())
     }
@@ -127,7 +163,12 @@ struct Voter {
     subject: Subject,
     /// Samples that move, by signal and place in its track.
     kept: Vec<(usize, usize)>,
-    /// By nominal parameter with a tolerance: how far a standard deviation moves each of them, in floors.
+    /// How many independent samples they are.
+    count: f64,
+    /// Nominal parameters with a tolerance, and how many standard deviations each is taken to be off.
+    free: Vec<Nuisance>,
+    strain: DVector<f64>,
+    /// How far a standard deviation more of each of them moves the samples, in floors.
     columns: DMatrix<f64>,
     /// Of the columns' squares, with what is known of the parameters beforehand.
     known: Cholesky<f64, Dyn>,
@@ -139,6 +180,9 @@ impl Voter {
         let nominal = subject.predict(&[], &Overrides::none())?;
         let mut voter = Voter {
             kept: Vec::new(),
+            count: 0.0,
+            free: nuisances(&subject, &nominal),
+            strain: DVector::zeros(0),
             columns: DMatrix::zeros(0, 0),
             known: Cholesky::pack_dirty(DMatrix::zeros(0, 0)),
             subject,
@@ -147,18 +191,53 @@ impl Voter {
         if voter.kept.is_empty() {
             return Ok(None);
         }
-        let (base, _) = voter.rest(&nominal);
-        let free = nuisances(&voter.subject, &nominal);
-        let mut columns = DMatrix::zeros(base.len(), free.len());
-        for (column, nuisance) in free.iter().enumerate() {
-            let off = Overrides::one(nuisance.name, nuisance.nominal + nuisance.deviation);
-            let (moved, _) = voter.rest(&voter.subject.predict(&[], &off)?);
-            columns.set_column(column, &(&base - &moved));
-        }
-        let squares = columns.transpose() * &columns + DMatrix::identity(free.len(), free.len());
-        let Some(known) = squares.cholesky() else { return Ok(None) };
-        (voter.columns, voter.known) = (columns, known);
+        voter.count = voter.kept.iter().map(|(place, _)| voter.subject.runs[0].floors[*place].share()).sum();
+        voter.strain = DVector::zeros(voter.free.len());
         Ok(Some(voter))
+    }
+
+    /// Takes the nominal parameters to be what they are best under a task: how they move the samples is no straight line.
+    fn centre(&mut self, task: Task) -> Result<(), EffectError> {
+        let under = self.under(task);
+        for _ in 0..CENTRINGS {
+            self.linearise(&under)?;
+            let (rest, slopes) = self.rest(&under.predict(&[], &self.overrides())?);
+            let step = self.known.solve(&(self.columns.transpose() * (rest + slopes * task.age_s) - &self.strain));
+            // Further off nobody builds: what asks for it is a gap.
+            self.strain = (&self.strain + step).map(|strain| strain.clamp(-FURTHEST, FURTHEST));
+        }
+        self.linearise(&under)
+    }
+
+    /// Finds how the samples move with the nominal parameters.
+    fn linearise(&mut self, under: &Subject) -> Result<(), EffectError> {
+        let (base, _) = self.rest(&under.predict(&[], &self.overrides())?);
+        self.columns = DMatrix::zeros(base.len(), self.free.len());
+        for column in 0..self.free.len() {
+            let mut beside = self.overrides();
+            beside.0.insert(self.free[column].name.to_owned(), self.free[column].at(self.strain[column] + 1.0));
+            let (moved, _) = self.rest(&under.predict(&[], &beside)?);
+            self.columns.set_column(column, &(&base - &moved));
+        }
+        let squares = self.columns.transpose() * &self.columns + DMatrix::identity(self.free.len(), self.free.len());
+        if let Some(known) = squares.cholesky() {
+            self.known = known;
+        }
+        Ok(())
+    }
+
+    /// The nominal parameters as they are taken to be.
+    fn overrides(&self) -> Overrides {
+        let each = self.free.iter().zip(&self.strain);
+        Overrides(each.map(|(nuisance, strain)| (nuisance.name.to_owned(), nuisance.at(*strain))).collect())
+    }
+
+    /// The subject under a task that is told at once.
+    fn under(&self, task: Task) -> Subject {
+        let mut subject = self.subject.clone();
+        subject.set_tick(0, 0.0, 0.0);
+        subject.set_task(0, Task { age_s: 0.0, filter_s: 0.0, ..task });
+        subject
     }
 
     fn moving(&self, nominal: &Prediction) -> Vec<(usize, usize)> {
@@ -175,14 +254,15 @@ impl Voter {
         kept
     }
 
-    /// What is left of each sample, and its slope, in floors.
+    /// What is left of each sample, and its slope, in floors; where noise remembers, as much less as it tells less.
     fn rest(&self, prediction: &Prediction) -> (DVector<f64>, DVector<f64>) {
         let run = &self.subject.runs[0];
         let of = |&(place, k): &(usize, usize)| match (&run.tracks[place], &prediction.runs[0][place]) {
             (Some(track), Predicted::Level(values)) => {
                 let half = if self.subject.signals[place].is_count { 0.5 } else { 0.0 };
-                let floor = run.floors[place].rms(0.0);
-                ((track.values[k] + half - values[k]) / floor, slope(track, values, k) / floor)
+                let floor = run.floors[place];
+                let unit = floor.rms(0.0) / floor.share().sqrt();
+                ((track.values[k] + half - values[k]) / unit, slope(track, values, k) / unit)
             }
             _ => (0.0, 0.0),
         };
@@ -192,20 +272,17 @@ impl Voter {
 
     /// What is left under a task, or as the run has it.
     fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
-        let mut subject = self.subject.clone();
-        if let Some(task) = task {
-            subject.set_tick(0, 0.0, 0.0);
-            subject.set_task(0, Task { age_s: 0.0, filter_s: 0.0, ..task });
-        }
-        let (rest, slopes) = self.rest(&subject.predict(&[], &Overrides::none())?);
+        let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
+        let (rest, slopes) = self.rest(&under.predict(&[], &self.overrides())?);
         // What the nominal parameters can take of them within their tolerances is taken off.
-        let (by_rest, by_slopes) = (self.columns.transpose() * &rest, self.columns.transpose() * &slopes);
+        let by_rest = self.columns.transpose() * &rest - &self.strain;
+        let by_slopes = self.columns.transpose() * &slopes;
         let (taken, taken_slopes) = (self.known.solve(&by_rest), self.known.solve(&by_slopes));
         Ok(Moments {
-            squares: rest.norm_squared() - by_rest.dot(&taken),
+            squares: rest.norm_squared() + self.strain.norm_squared() - by_rest.dot(&taken),
             slopes: slopes.norm_squared() - by_slopes.dot(&taken_slopes),
             products: rest.dot(&slopes) - by_rest.dot(&taken_slopes),
-            count: rest.len() as f64,
+            count: self.count,
         })
     }
 }
@@ -230,27 +307,33 @@ impl Moments {
         let sum = self.squares + 2.0 * age * self.products + age * age * self.slopes;
         if self.count > 0.0 { sum.max(0.0) / self.count } else { 0.0 }
     }
+
+    /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, with a scale of its own.
+    fn cost(&self, age: f64) -> f64 {
+        self.count * (LEAST_SQUARE + self.mean_square(age)).ln()
+    }
 }
 
 /// By how much all flags but beams are late beyond the age, s: the same of several devices; 0 where they do not agree on any.
-pub(super) fn find_filter(subjects: &[Subject], nominal: &[Prediction], run: usize) -> f64 {
+pub(super) fn find_filter(subjects: &[Subject], bare: &[Bare], run: usize) -> f64 {
     let late: Vec<Vec<(f64, f64)>> =
-        subjects.iter().zip(nominal).map(|(subject, nominal)| late(subject, nominal, run)).collect();
+        subjects.iter().zip(bare).map(|(subject, bare)| late(subject, &bare.prediction, run)).collect();
     let late: Vec<Vec<(f64, f64)>> = late.into_iter().filter(|edges| edges.len() >= 4).collect();
     let cost = |edges: &[(f64, f64)], filter: f64| {
         let outside = |(least, most): &(f64, f64)| (least - filter).max(filter - most).max(0.0) / EDGE_SIGMA_S;
-        edges.iter().map(|edge| outside(edge).powi(2).min(STRAY)).sum::<f64>() / edges.len() as f64
+        let squares = edges.iter().map(|edge| outside(edge).powi(2).min(STRAY)).sum::<f64>();
+        edges.len() as f64 * (LEAST_SQUARE + squares / edges.len() as f64).ln()
     };
-    let total = |filter: f64| late.iter().map(|edges| cost(edges, filter).ln_1p()).sum::<f64>();
+    let total = |filter: f64| late.iter().map(|edges| cost(edges, filter)).sum::<f64>();
     let steps = 0..=(MOST_FILTER_S / FILTER_STEP_S) as u32;
     let filters = steps.map(|step| f64::from(step) * FILTER_STEP_S);
     let costs: Vec<(f64, f64)> = filters.map(|filter| (total(filter), filter)).collect();
     let Some(least) = costs.iter().map(|(cost, _)| *cost).min_by(f64::total_cmp) else { return 0.0 };
     // Between looks a span of filters may do equally well: the middle of it.
-    let alike: Vec<f64> = costs.iter().filter(|(cost, _)| *cost < least + 0.02).map(|(_, filter)| *filter).collect();
+    let alike: Vec<f64> = costs.iter().filter(|(cost, _)| *cost < least + 1.0).map(|(_, filter)| *filter).collect();
     let best = median(&alike).unwrap_or(0.0);
-    let nearer = late.iter().filter(|edges| cost(edges, best) < NEARER * cost(edges, 0.0)).count();
-    if nearer >= LEAST_DEVICES { best } else { 0.0 }
+    let nearer = late.iter().filter(|edges| cost(edges, 0.0) - cost(edges, best) > NEARER).count();
+    if nearer >= LEAST_DEVICES && total(0.0) - total(best) > THRESHOLD { best } else { 0.0 }
 }
 
 /// Between which delays each flag's edge lies behind its predicted instant, s.
@@ -262,7 +345,7 @@ fn late(subject: &Subject, nominal: &Prediction, run: usize) -> Vec<(f64, f64)> 
         else {
             continue;
         };
-        if beam_of(info).is_some() {
+        if beam_of(info).is_some() || !subject.is_filtered(info) {
             continue;
         }
         for edge in track.edges.iter().filter(|edge| !track.is_blind(edge.index)) {

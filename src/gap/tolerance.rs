@@ -34,9 +34,14 @@ pub(super) struct Weighed<'a> {
 }
 
 impl Weighed<'_> {
-    /// What share of an observation the track's `k`th sample is: 1, or of a law with an error of its own less at rest.
+    /// What share of an observation the track's `k`th sample is: of noise that remembers less than 1; of a law with an error of its
+    /// own, which hides the noise, less at rest.
     pub fn weight(&self, k: usize) -> f64 {
-        if self.floor.misfit > 0.0 && self.rests.get(k) == Some(&true) { self.at_rest } else { 1.0 }
+        match self.floor.misfit > 0.0 {
+            true if self.rests.get(k) == Some(&true) => self.at_rest,
+            true => 1.0,
+            false => self.floor.share(),
+        }
     }
 }
 

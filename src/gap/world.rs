@@ -20,6 +20,8 @@ pub struct Script {
     pub told: Vec<Told>,
     /// Of a belt: itself among its neighbours.
     pub(super) lane: Arc<Lane>,
+    /// Where the beams are that the cuts were read from, m from the belt's start.
+    pub beams: [Option<f64>; 2],
 }
 
 /// A beam or a seal is told to be so from now on.
@@ -94,6 +96,8 @@ pub(super) struct World {
     told: Surroundings,
     /// How many of them the device was told of.
     shown_queue: u32,
+    /// How much further from each other than the script has them the beams of this device are, m.
+    apart: f64,
     beams: [bool; 2],
     /// The part that changed each beam last.
     pub last: [Option<Passing>; 2],
@@ -112,6 +116,7 @@ impl World {
             queued: 0,
             shown_queue: 0,
             told: Surroundings::default(),
+            apart: 0.0,
             beams: [false; 2],
             last: [None; 2],
         })
@@ -119,6 +124,11 @@ impl World {
 
     /// Shows the device what is so at t = 0.
     pub fn begin(&mut self, device: &mut dyn Device) {
+        let between = |[first, second]: [Option<f64>; 2]| Some(second? - first?);
+        if let Role::Carries(belt) = device.role() {
+            let both = between(belt.barriers).zip(between(self.script.beams));
+            self.apart = both.map_or(0.0, |(here, there)| here - there);
+        }
         self.read(device, 0.0);
     }
 
@@ -197,7 +207,7 @@ impl World {
     fn read(&mut self, device: &mut dyn Device, now: f64) {
         let mut news = false;
         while let Some(cut) = self.script.cuts.get(self.next_cut).filter(|cut| cut.from <= now) {
-            self.active.push(*cut);
+            self.active.push(self.moved(cut));
             put_on(&mut self.riders, cut);
             self.next_cut += 1;
             news = true;
@@ -231,6 +241,14 @@ impl World {
         });
         let active = &self.active;
         riders.retain(|rider| active.iter().any(|cut| cut.part == rider.part) || lane.bears(rider));
+    }
+
+    /// A cut as this device's beams have it: a part is first seen by one, and comes to the other so much later or sooner.
+    fn moved(&self, cut: &Cut) -> Cut {
+        let of_part = self.script.cuts.iter().filter(|other| other.part == cut.part);
+        let first = of_part.min_by(|a, b| a.ahead.abs().total_cmp(&b.ahead.abs())).map_or(cut.beam, |first| first.beam);
+        let further = self.apart * (cut.beam as f64 - first as f64);
+        Cut { ahead: cut.ahead + cut.way * further, ..*cut }
     }
 
     /// The beams as they are now.
@@ -294,6 +312,26 @@ fn put_on(riders: &mut Vec<Rider>, cut: &Cut) {
             let (part, length) = (cut.part, cut.length);
             let centre = centre(length);
             riders.push(Rider { part, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0 });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A beam 10 mm further on is reached 10 mm later, whichever way the belt runs; that by which a part was first seen is where it is.
+    #[test]
+    fn beams_that_are_further_apart_are_reached_later() {
+        let cut =
+            |beam: usize, ahead: f64, way: f64| Cut { part: 0, beam, from: 1.0, ahead, way, length: 0.25, taken: None };
+        for (way, cuts) in [(1.0, [cut(0, 0.0, 1.0), cut(1, 1.4, 1.0)]), (-1.0, [cut(1, 0.0, -1.0), cut(0, 1.4, -1.0)])]
+        {
+            let script = Arc::new(Script { cuts: cuts.to_vec(), ..Script::default() });
+            let mut world = World::new(&script).expect("something passes");
+            world.apart = 0.01;
+            let ahead = cuts.map(|cut| world.moved(&cut).ahead);
+            assert!(ahead[0] == 0.0 && (ahead[1] - 1.41).abs() < 1e-12, "{ahead:?} {way}");
         }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::candidate::Candidate;
 use super::nuisance::Nuisance;
-use crate::gap::fit::{self, Effort, Fitted, Range, Residuals};
+use crate::gap::fit::{self, Effort, Fitted, Range, Residuals, sum_of_squares};
 use crate::gap::statistics::inflation;
 use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject, WINDOW_S};
 use crate::plant::EffectSpec;
@@ -186,11 +186,25 @@ impl<'a> Bench<'a> {
             ranges: self.ranges(set),
             cost: score.total + strain,
             blocks: self.blocks(&score),
-            correlation: correlation(&score).min(self.most_correlated()),
+            correlation: self.correlation(&score).min(self.most_correlated()),
             overrides: self.overrides(set, &at),
             set: set.to_vec(),
             at,
         })
+    }
+
+    /// The correlation of each residual with the next of its signal, all levels together, beyond that of the noise, which each
+    /// sample's weight knows of.
+    fn correlation(&self, score: &Score) -> f64 {
+        let (mut products, mut squares) = (0.0, 0.0);
+        for (signal, level) in score.signals.iter().filter_map(|signal| Some((signal, signal.level.as_ref()?))) {
+            let floor = &self.subject.runs[signal.run].floors[signal.signal];
+            let memory = if floor.misfit > 0.0 { 0.0 } else { floor.memory };
+            let own = sum_of_squares(&level.residual);
+            products += level.residual.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() - memory * own;
+            squares += own;
+        }
+        if squares > 0.0 { products / squares } else { 0.0 }
     }
 
     /// How far residuals may remember: those of a window know nothing of those of another, so that there are at least as many
@@ -258,12 +272,4 @@ impl<'a> Bench<'a> {
             })
         })
     }
-}
-
-/// The correlation of each residual with the next of its signal, all levels together.
-fn correlation(score: &Score) -> f64 {
-    let levels = || score.signals.iter().filter_map(|signal| signal.level.as_ref());
-    let products: f64 = levels().flat_map(|level| level.residual.windows(2)).map(|pair| pair[0] * pair[1]).sum();
-    let squares: f64 = levels().flat_map(|level| &level.residual).map(|residual| residual * residual).sum();
-    if squares > 0.0 { products / squares } else { 0.0 }
 }

@@ -72,22 +72,21 @@ impl Ladder {
 }
 
 /// What it takes to fit so many parameters from where they nearly are: a dozen steps downhill, each with as many differences.
-fn anew(free: usize) -> Effort {
+pub fn anew(free: usize) -> Effort {
     const STEPS: u32 = 20;
     Effort { starts: 1, budget: (STEPS * (free as u32 + 1)).max(60) }
 }
 
-/// Climbs. `is_asked` says which effects are looked for.
-pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> Option<Ladder> {
-    let start = bench.nominal(&[]);
-    let bare = match start.is_empty() {
-        true => bench.trial(&[], start)?,
-        // Where the answer is wanted before anything is fitted, the nominal parameters stand.
-        false => {
-            let fitted = bench.fit(&[], std::slice::from_ref(&start), anew(start.len()));
-            fitted.or_else(|| bench.trial(&[], start))?
-        }
-    };
+/// Climbs from the model with its nominal parameters at `at`; where it is not `evident` that anything is wrong, nothing is looked
+/// for. `is_asked` says which effects are.
+pub fn climb(
+    bench: &Bench<'_>,
+    at: &[f64],
+    evident: bool,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    tell: &Tell<'_>,
+) -> Option<Ladder> {
+    let bare = bench.trial(&[], at.to_vec())?;
     let prediction = bench.predict(&[], &bare.at)?;
     let score = bench.subject.score(&prediction);
     let floor = floor(&score);
@@ -102,7 +101,7 @@ pub fn climb(bench: &Bench<'_>, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: 
         tried: 0,
         too_few_blocks: None,
     };
-    if ladder.excess() < least_gain(1, 1) {
+    if !evident {
         return Some(ladder);
     }
     ladder.subject = bench.subject.tolerant(&prediction);
@@ -252,7 +251,8 @@ fn beside(bench: &Bench<'_>, blurred: &[Subject], below: &Trial, candidate: &Can
     let mut best = (*cost, (*first).clone());
     // What costs the same wherever it is begun has nothing to act on in these recordings.
     let is_idle = scored.iter().all(|(cost, _)| (cost - below.cost).abs() <= 1e-9 * below.cost);
-    if !ranges.is_empty() && !is_idle {
+    let is_hopeless = candidate.free.len() == 1 && is_hopeless(&scored, candidate, below.cost, PROMISING * excess);
+    if !ranges.is_empty() && !is_idle && !is_hopeless {
         let glance = least_squares(&residuals, first, &ranges, 4 + 4 * ranges.len() as u32)?;
         best = (glance.cost, glance.at);
         let is_promising = below.cost - best.0 > PROMISING * excess;
@@ -269,6 +269,40 @@ fn beside(bench: &Bench<'_>, blurred: &[Subject], below: &Trial, candidate: &Can
         }
     }
     bench.trial(&set, all(&best.1))
+}
+
+/// Whether nothing is to be gained along a single parameter: every start costs more than none of the effect, and the parabola
+/// through none and the two nearest of them on either side has its bottom less than half of `worth` below.
+fn is_hopeless(scored: &[(f64, &Vec<f64>)], candidate: &Candidate, without: f64, worth: f64) -> bool {
+    let name = candidate.free[0].name;
+    let Some(nominal) = candidate.effect.parameters.iter().find(|of| of.name == name).map(|of| of.nominal) else {
+        return false;
+    };
+    if candidate.is_parameter_error() || scored.iter().any(|(cost, _)| *cost <= without) {
+        return false;
+    }
+    let bottom = |side: f64| {
+        let mut near: Vec<(f64, f64)> = scored
+            .iter()
+            .map(|(cost, at)| (side * (at[0] - nominal), cost - without))
+            .filter(|(off, _)| *off > 0.0 && off.is_finite())
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let [(one, low), (other, high), ..] = near[..] else {
+            return if near.is_empty() { 0.0 } else { f64::INFINITY };
+        };
+        // cost = a·x² + b·x through both.
+        let a = (high / other - low / one) / (other - one);
+        let b = low / one - a * one;
+        if b >= 0.0 && a >= 0.0 {
+            0.0
+        } else if a > 0.0 {
+            b * b / (4.0 * a)
+        } else {
+            f64::INFINITY
+        }
+    };
+    bottom(1.0).max(bottom(-1.0)) < 0.5 * worth
 }
 
 /// What each start costs. The starts of a single parameter go from small effects to large ones: once some in a row cost far more

@@ -1,5 +1,6 @@
 //! Which effect: candidates from the library, a ladder of them, their classes, intervals and what they leave.
 
+mod bare;
 mod bench;
 mod blur;
 mod candidate;
@@ -14,6 +15,7 @@ mod scan;
 mod starts;
 mod unseen;
 
+pub use bare::Bare;
 pub use bench::{BLOCK_S, Bench, Trial};
 pub use candidate::{Candidate, Free};
 pub use class::{Alternative, Answer, answers, plainness};

@@ -20,6 +20,11 @@ impl Nuisance {
         (value - self.nominal) / self.deviation
     }
 
+    /// The value that is so many standard deviations off.
+    pub fn at(&self, strain: f64) -> f64 {
+        self.nominal + strain * self.deviation
+    }
+
     /// Where it is looked for: four standard deviations either way.
     pub fn range(&self) -> Range {
         let reach = 4.0 * self.deviation;
@@ -27,8 +32,11 @@ impl Nuisance {
     }
 }
 
-/// The parameters of `subject` with a tolerance that its reports depend on: those that move the deviance by more than chance
-/// would within their tolerance.
+/// Below this whitened squared distance for a standard deviation a parameter's tolerance does not show: edges at the end of a cycle
+/// show more than their scatter over it says.
+const UNSEEN: f64 = 0.05;
+
+/// The parameters of `subject` with a tolerance that its reports depend on.
 pub fn nuisances(subject: &Subject, nominal: &Prediction) -> Vec<Nuisance> {
     let declared = subject.parameters.0.iter().filter_map(|(name, parameter)| match parameter.value {
         ParameterValue::Number(value) if parameter.tolerance > 0.0 && value != 0.0 => {
@@ -39,7 +47,7 @@ pub fn nuisances(subject: &Subject, nominal: &Prediction) -> Vec<Nuisance> {
     let is_seen = |nuisance: &Nuisance| {
         let off = Overrides::one(nuisance.name, nuisance.nominal + nuisance.deviation);
         let moved = subject.predict(&[], &off).map(|moved| sum_of_squares(&subject.apart(nominal, &moved)));
-        moved.is_ok_and(|moved| moved > 1.0)
+        moved.is_ok_and(|moved| moved > UNSEEN)
     };
     declared.filter(is_seen).collect()
 }

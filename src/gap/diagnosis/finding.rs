@@ -2,10 +2,10 @@
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bench, Bounds, Ladder, Remainder, answers, climb, intervals, misfit, nuisances, plainness,
+    Alternative, Answer, Bare, Bench, Bounds, Ladder, Remainder, answers, climb, intervals, misfit, plainness,
     remainder,
 };
-use crate::gap::{Prediction, Study, Subject};
+use crate::gap::{Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
 /// What a device's recordings say of it.
@@ -61,12 +61,13 @@ const MUCH: f64 = 0.25;
 pub(super) fn find(
     place: usize,
     subject: &Subject,
-    nominal: &Prediction,
+    bare: &Bare,
     study: &Study,
     options: &Options<'_>,
 ) -> Option<Finding> {
-    let bench = Bench::new(subject, nuisances(subject, nominal), options.is_stopped);
-    let ladder = climb(&bench, options.is_asked, options.tell)?;
+    let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);
+    let evident = evidence(subject, &bare.prediction) > THRESHOLD;
+    let ladder = climb(&bench, &bare.at, evident, options.is_asked, options.tell)?;
     let bare = subject.score(&bench.predict(&[], &ladder.bare.at)?);
     let mut finding = Finding {
         subject: place,

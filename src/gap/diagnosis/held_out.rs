@@ -62,7 +62,7 @@ impl Measured {
             };
             let after = with(subject);
             // What lies within the tolerances of nominal parameters is no gap: they are as the training has them.
-            let nominal = subject.predict(&[], bare).unwrap_or_else(|_| held_out.nominal[place].clone());
+            let nominal = subject.predict(&[], bare).unwrap_or_else(|_| held_out.bare[place].prediction.clone());
             let before = subject.score(&nominal);
             let after = after.as_ref().unwrap_or(&before);
             let windows = subject.is_taken_up_again().then(|| subject.in_windows()).and_then(|windowed| {

@@ -80,20 +80,15 @@ pub fn diagnose(
     options: &Options<'_>,
 ) -> Result<Diagnosis, StudyError> {
     let study = Study::new(plant, train)?;
-    let meant = study.subjects.iter().zip(&study.nominal).enumerate();
+    let meant = study.subjects.iter().zip(&study.bare).enumerate();
     let meant = meant.filter(|(_, (subject, _))| (options.is_meant)(&subject.id.instance(plant).name));
     let meant: Vec<_> = meant.collect();
     let findings: Vec<Finding> = meant
         .into_par_iter()
         .with_max_len(1)
-        .filter_map(|(place, (subject, nominal))| finding::find(place, subject, nominal, &study, options))
+        .filter_map(|(place, (subject, bare))| finding::find(place, subject, bare, &study, options))
         .collect();
     let mut held_out = Study::beside(plant, held_out, &study)?;
-    // What is within the tolerances is no gap: the model stands there as well as they let it.
-    for finding in findings.iter().filter(|finding| !finding.ladder.bare.overrides.0.is_empty()) {
-        let bare = &finding.ladder.bare.overrides;
-        held_out.nominal[finding.subject] = held_out.subjects[finding.subject].predict(&[], bare)?;
-    }
     let too_fast = untrained::leave_out(&mut held_out, &study);
     let measured = Measured::new(plant, &held_out, &findings);
     let mut report = Report::new(verdict::verdict(&study, &findings));

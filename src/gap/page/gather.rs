@@ -34,7 +34,7 @@ pub fn gather(plant: &Plant, study: &Study, added: &[Added<'_>]) -> Result<Evide
     let mut evidence = Evidence { plant: plant.name.clone(), sites: sites(plant), ..Evidence::default() };
     for added in added {
         let at = study.subjects.iter().position(|subject| subject.name == added.device);
-        let Some((subject, nominal)) = at.map(|at| (&study.subjects[at], &study.nominal[at])) else { continue };
+        let Some((subject, nominal)) = at.map(|at| (&study.subjects[at], &study.bare[at].prediction)) else { continue };
         let has_effect = !added.effects.is_empty();
         let predicted = match has_effect {
             true => Some(subject.predict(added.effects, added.overrides)?),
