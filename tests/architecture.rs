@@ -13,16 +13,20 @@ const ROWS: &[(&str, f64)] = &[
     ("time", 0.0),
     // Text with places, no meaning: maps, prototypes and plants read theirs from it.
     ("xml", 0.0),
+    // Poses and shapes name nobody; meshes are made of them, and prototypes have both.
+    ("kinematics", 0.5),
+    ("mesh", 0.75),
+    ("script", 0.75),
     ("prototype", 1.0),
     // Prototypes declare their signals in the map's words, so the map stands half a row above them.
     ("signal_map", 0.5),
     ("wire", 1.0),
     ("bank", 2.0),
-    ("kinematics", 2.0),
     ("plant", 2.0),
     ("session", 2.0),
     // The plant's shape: made of plants and poses.
     ("scene", 2.5),
+    ("collision", 2.75),
     ("device", 3.0),
     ("effect", 3.5),
     ("engine", 4.0),

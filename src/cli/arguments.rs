@@ -222,6 +222,11 @@ pub struct RunArguments {
     #[cfg(feature = "view")]
     #[arg(long, value_name = "ADDR", num_args = 0..=1, require_equals = true, value_parser = parse_address)]
     pub view: Option<Option<SocketAddr>>,
+    /// Ends the run with the first collision, with exit code 1
+    ///
+    /// Two collide that come to be more than 0.1 mm in one another: parts, and all solid bodies of the plant's shape.
+    #[arg(long)]
+    pub stop_on_collision: bool,
     /// Prints the summary as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -241,7 +246,7 @@ first whenever a session stands.
 
 Exit codes:
   0  the run came to its end, or to Ctrl-C
-  1  the server never answered, or refused for good (5xx)
+  1  the server never answered, or refused for good (5xx); with --stop-on-collision, there was one
   2  bad input or use; nothing was started";
 
 /// Checks a model and its signals map, and with --connect an automation's interface against it.

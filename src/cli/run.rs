@@ -46,6 +46,7 @@ fn end(arguments: &RunArguments, summary: &Summary) -> Result<Answer, Failure> {
     }
     match &summary.denied {
         Some(why) => Err(Failure(format!("error: {why}"))),
+        None if arguments.stop_on_collision && summary.collisions > 0 => Ok(Answer::No),
         None => Ok(answer(summary)),
     }
 }
@@ -188,6 +189,7 @@ fn options(arguments: &RunArguments) -> Result<Options, Failure> {
         speed: arguments.speed,
         seed: arguments.seed,
         signals: (!arguments.select.is_empty()).then(|| arguments.select.clone()),
+        stop_on_collision: arguments.stop_on_collision,
         record: record.clone().map(|path| RecordTo { path, replace: *force }),
         ..connecting(&arguments.model, connection)?
     })

@@ -17,6 +17,7 @@ pub mod law;
 mod loading_bay;
 pub mod path;
 mod pusher;
+mod sensor;
 mod servo_axis;
 mod servo_path;
 mod straight_conveyor;
@@ -39,6 +40,9 @@ pub static KINDS: &[&KindDescriptor] = &[
     &unloading_bay::KIND,
     &servo_axis::KIND,
     &encoder_motor::KIND,
+    &sensor::BOX,
+    &sensor::PROXIMITY,
+    &sensor::VISION,
 ];
 
 /// The boolean reports whose sensors look along a way: those for which [`Device::travel`] has an answer.
@@ -77,6 +81,9 @@ pub fn build(
         "kinetwin.UnloadingBay" => unloading_bay::build(parameters, instance),
         "kinetwin.ServoAxis" => servo_axis::build(parameters, instance),
         "kinetwin.EncoderMotor" => Ok(encoder_motor::build(parameters)),
+        "kinetwin.BoxSensor" | "kinetwin.ProximitySensor" | "kinetwin.VisionSensor" => {
+            sensor::build(kind.name, parameters, instance)
+        }
         other => unreachable!("{other:?} stands in no table of device kinds"),
     }
 }
@@ -178,6 +185,28 @@ pub struct Surroundings {
     pub parts: u32,
     /// How many of a belt's parts are held back by what stands in their way.
     pub queued: u32,
+    /// What a sensor that looks at parts sees.
+    pub sensed: Sensed,
+}
+
+/// What a sensor sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sensed {
+    /// How many parts are where it looks.
+    pub count: u32,
+    /// How far the nearest of them is: along the ray, or from the centre of the box to its own, m.
+    pub distance: Option<f64>,
+    /// What kind that one is.
+    pub nearest: Option<PartKind>,
+}
+
+/// Where a sensor looks, in the frame of its instance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Look {
+    /// Into a box along the frame's axes, m.
+    Box { centre: [f64; 3], size: [f64; 3] },
+    /// Along x, so many metres.
+    Ray { range: f64 },
 }
 
 /// What a device is to the parts: how the engine's part phase sees it.
@@ -197,6 +226,8 @@ pub enum Role<'a> {
     Makes(&'a Source),
     /// It takes parts off a belt.
     Takes(&'a Sink),
+    /// It looks at parts.
+    Looks(&'a Look),
 }
 
 /// The shape of a conveyor's surface, in the frame of its instance: x along it, y to its left, z up, the surface at z = 0

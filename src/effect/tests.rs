@@ -257,7 +257,7 @@ impl Act {
         match *self {
             Command(values) => values.iter().for_each(|(name, value)| device.command(port(name), *value)),
             World([barrier_a, barrier_b, sealed], parts, queued) => {
-                device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts, queued });
+                device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts, queued, ..Surroundings::default() });
             }
             Share(others) => device.share(others),
             Stairs(name, first, rise, _) => device.command(port(name), first + rise * f64::from(step)),

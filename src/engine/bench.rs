@@ -52,6 +52,7 @@ impl Bench {
         let [x, y, z, rz] = at;
         self.instances.push(Instance {
             shape: Default::default(),
+            structure: None,
             name: name.to_owned(),
             prototype: kind.name.to_owned(),
             pose: Pose { x, y, z, rz, ..Pose::default() },

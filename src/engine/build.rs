@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use super::binding::{CommandTable, ReportPort, Target};
-use super::floor::{Bay, BeltBody, CupsBody, Drain, Floor, PlateBody};
+use super::floor::{Bay, BeltBody, CupsBody, Drain, Eye, Floor, PlateBody};
 use super::operate::Operated;
 use super::ties::{self, Ties};
 use super::{Engine, Mount, Unit, UnitBody};
@@ -125,6 +125,8 @@ impl Engine {
             frames,
             floor,
             stage: None,
+            watch: None,
+            owners: super::clash::registers_of(plant),
             scratch: vec![0.0; room],
             operated: Operated::default(),
         };
@@ -256,6 +258,10 @@ impl Builder {
                 let tool = self.frames.add(Some(base), DPose3::IDENTITY);
                 self.tools.insert(instance.name.clone(), (unit, tool));
                 UnitBody::Robot(tool)
+            }
+            Role::Looks(look) => {
+                self.floor.eyes.push(Eye::new(look, &pose));
+                UnitBody::Eye(self.floor.eyes.len() - 1)
             }
             Role::Apart | Role::Holds(_) | Role::Makes(_) | Role::Takes(_) => UnitBody::Apart,
         })

@@ -1,7 +1,7 @@
 //! The engine: a plant's devices and parts, moved by fixed steps of simulated time.
 //!
 //! One [`Engine::tick`] is one step, in phases: **actuators** take the commands, the state as it is now becomes the **report**,
-//! **joints** move, **parts** move with them, **sensors** look at what came of it. Step k takes the commands with t ≤ kT and
+//! **joints** move, **parts** move with them, **collisions** are looked for, **sensors** look at what came of it. Step k takes the commands with t ≤ kT and
 //! reports the state at kT, immediate booleans already following their command; then it moves over [kT, (k+1)T).
 //!
 //! Invariant: no clock, no IO, no thread, no hash map to iterate. The same plant, step, seed and the same inputs at the same
@@ -11,6 +11,9 @@
 mod bench;
 mod binding;
 mod build;
+#[cfg(all(test, feature = "javascript"))]
+mod builder_tests;
+mod clash;
 #[cfg(test)]
 mod effect_tests;
 mod floor;
@@ -22,6 +25,8 @@ mod operate_tests;
 mod stage;
 #[cfg(test)]
 mod stage_tests;
+#[cfg(test)]
+mod structure_tests;
 #[cfg(test)]
 mod tests;
 mod ties;
@@ -40,6 +45,7 @@ use crate::signal_map::RegisterId;
 use crate::time::Instant;
 use crate::value::Value;
 use binding::{CommandTable, ReportPort};
+use clash::Watch;
 use floor::Floor;
 use operate::Operated;
 use stage::Stage;
@@ -58,6 +64,9 @@ pub struct Engine {
     frames: FrameTree,
     floor: Floor,
     stage: Option<Stage>,
+    watch: Option<Watch>,
+    /// The registers of each instance, by its name; sorted.
+    owners: Vec<(String, Vec<RegisterId>)>,
     /// Room for one device's reports.
     scratch: Vec<f64>,
     /// What an operator has done.
@@ -99,6 +108,7 @@ enum UnitBody {
     Cups(usize, FrameId),
     Bay(usize),
     Drain,
+    Eye(usize),
 }
 
 /// A part, as it is now.
@@ -145,6 +155,7 @@ impl Engine {
         self.report();
         self.joints(span);
         self.parts_phase(span);
+        self.collisions_phase();
         self.sensors();
         self.steps += 1;
         &self.registers
@@ -171,9 +182,11 @@ impl Engine {
         })
     }
 
-    /// What went wrong with parts since this was asked last, the first 256 of it.
+    /// What went wrong with parts and bodies since this was asked last, the first 256 of it. Asked after each tick, each
+    /// collision has the signals of who is involved as they were at that moment.
     pub fn take_incidents(&mut self) -> Vec<Incident> {
-        std::mem::take(&mut self.floor.tally.incidents)
+        let incidents = std::mem::take(&mut self.floor.tally.incidents);
+        if incidents.is_empty() { incidents } else { self.with_signals(incidents) }
     }
 
     fn actuators(&mut self, inputs: &[(RegisterId, Value)]) {
@@ -284,6 +297,7 @@ impl Engine {
                 UnitBody::Belt(index) => self.floor.at_belt(index),
                 UnitBody::Plate(index) => self.floor.at_plate(index),
                 UnitBody::Cups(index, _) => self.floor.about_cups(index),
+                UnitBody::Eye(index) => Surroundings { sensed: self.floor.seen_by(index), ..Surroundings::default() },
                 _ if unit.ties.counts_parts => Surroundings::default(),
                 _ => continue,
             };

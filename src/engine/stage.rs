@@ -45,6 +45,10 @@ impl Stage {
         Stage { poses: Poses::new(scene), drives, beams }
     }
 
+    pub fn poses(&self) -> &Poses {
+        &self.poses
+    }
+
     /// Follows the devices to where they are now.
     pub fn follow(&mut self, units: &[Unit]) {
         for Drive { unit, frames } in &self.drives {

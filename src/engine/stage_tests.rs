@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::Engine;
+use super::{Engine, IncidentKind};
 use crate::device::KINDS;
 use crate::kinematics::DVec3;
 use crate::plant::embedded::Embedded;
@@ -158,4 +158,34 @@ fn the_line_has_about_as_many_triangles_as_the_references() {
     let (seen, stored) = (scene.triangles(), scene.stored_triangles());
     assert!((200_000..300_000).contains(&seen), "{seen} seen, {stored} stored");
     assert!(stored < seen / 4, "{stored} stored of {seen}");
+}
+
+#[test]
+fn a_gripper_driven_into_a_conveyor_is_told_with_the_robots_signals() {
+    let mut shown = Shown::new("models/depalletizer");
+    shown.engine.watch();
+    assert_eq!(shown.engine.watched().expect("it").pairs_left_out().count(), 0);
+    shown.run(&[("Robot.YTarget", 1.2)], 300);
+    assert_eq!((shown.engine.collisions(), shown.engine.take_incidents().len()), (0, 0));
+    // The rim is at 1.70 + Z, the gripper's plate 55 mm above it, the belt at 0.75.
+    shown.run(&[("Robot.ZTarget", -0.99)], 300);
+    assert_eq!(shown.engine.take_incidents(), []);
+    shown.run(&[("Robot.ZTarget", -1.02)], 1);
+    let mut told = Vec::new();
+    for _ in 0..100 {
+        shown.engine.tick(&[]);
+        told.extend(shown.engine.take_incidents());
+    }
+    let [incident] = told.as_slice() else { panic!("{told:?}") };
+    let IncidentKind::Collision { between, depth, instances, .. } = &incident.kind else { panic!("{incident:?}") };
+    assert_eq!(between, &["Robot.R", "Conveyor4"].map(str::to_owned));
+    assert_eq!(instances, &["Robot".to_owned(), "Conveyor4".to_owned()]);
+    assert!((1e-4..0.011).contains(depth), "{depth}");
+    let signal = |name: &str| {
+        let of = |(register, _): &&(RegisterId, Value)| shown.plant.signal_map.signal(*register).name == name;
+        incident.signals.iter().find(of).and_then(|(_, value)| value.to_f64()).expect(name)
+    };
+    assert!(signal("Robot.actualPosZ") < -0.99 && signal("Robot.ZTarget") == f64::from(-1.02f32));
+    assert_eq!(signal("Conveyor4.velocityActual"), 0.0);
+    assert_eq!(shown.engine.collisions(), 1);
 }

@@ -294,7 +294,14 @@ impl World {
         let [barrier_a, barrier_b] = beams;
         let Surroundings { sealed, parts: held, .. } = self.told;
         let here = self.riders.iter().filter(|rider| !self.script.lane.is_beyond(rider)).count() as u32;
-        device.sense(&Surroundings { barrier_a, barrier_b, sealed, parts: held + here, queued: self.queued });
+        device.sense(&Surroundings {
+            barrier_a,
+            barrier_b,
+            sealed,
+            parts: held + here,
+            queued: self.queued,
+            ..Surroundings::default()
+        });
     }
 }
 
@@ -323,8 +330,16 @@ mod tests {
     /// A beam 10 mm further on is reached 10 mm later, whichever way the belt runs; that by which a part was first seen is where it is.
     #[test]
     fn beams_that_are_further_apart_are_reached_later() {
-        let cut =
-            |beam: usize, ahead: f64, way: f64| Cut { part: 0, beam, from: 1.0, ahead, way, length: 0.25, taken: None };
+        let cut = |beam: usize, ahead: f64, way: f64| Cut {
+            part: 0,
+            beam,
+            from: 1.0,
+            ahead,
+            front: 0.0,
+            way,
+            length: 0.25,
+            taken: None,
+        };
         for (way, cuts) in [(1.0, [cut(0, 0.0, 1.0), cut(1, 1.4, 1.0)]), (-1.0, [cut(1, 0.0, -1.0), cut(0, 1.4, -1.0)])]
         {
             let script = Arc::new(Script { cuts: cuts.to_vec(), ..Script::default() });

@@ -31,11 +31,16 @@ impl Beam {
     /// Whether `block` cuts it, strictly: a block that only touches it with a face, an edge or a corner does not. The ray is
     /// cast at the block with its faces drawn in by [`TOUCH_M`].
     pub fn is_cut_by(&self, block: &Block) -> bool {
+        self.way_to(block).is_some()
+    }
+
+    /// Which share of its way the beam goes until `block` cuts it, 0 to 1; `None` where it does not.
+    pub fn way_to(&self, block: &Block) -> Option<f64> {
         if !self.bounds.meet(block.bounds()) {
-            return false;
+            return None;
         }
         let ray = Ray::new(self.from, self.way);
-        block.shape(TOUCH_M).cast_ray(&block.pose(), &ray, 1.0, true).is_some()
+        block.shape(TOUCH_M).cast_ray(&block.pose(), &ray, 1.0, true)
     }
 }
 

@@ -6,13 +6,17 @@
 
 mod beam;
 mod block;
+mod chain;
 mod frame;
+mod joint;
 mod polygon;
 mod surface;
 
 pub use beam::Beam;
 pub use block::{Block, Bounds, separation};
+pub use chain::{Chain, OutOfReach};
 pub use frame::{Frame, FrameId, FrameTree};
+pub use joint::{Joint, JointKind};
 pub use parry3d_f64::glamx::{DPose3, DQuat, DVec2, DVec3};
 pub use polygon::Polygon;
 pub use surface::{Along, Shape, Surface};

@@ -7,7 +7,7 @@ use hdrhistogram::Histogram;
 use super::bell::Bell;
 use super::clock::WallClock;
 use crate::bank::SimulationSide;
-use crate::engine::{Act, ActError, Engine, Incident};
+use crate::engine::{Act, ActError, Engine, Incident, IncidentKind};
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
 use crate::value::Value;
@@ -19,6 +19,9 @@ pub trait Journal: Send {
 
     /// Before the step at the simulated time `at`, an operator did this: one JSON object. Must not wait.
     fn operated(&mut self, _at: Instant, _deed: String) {}
+
+    /// Something went wrong with a part or a body. Must not wait.
+    fn noted(&mut self, _incident: &Incident) {}
 }
 
 /// A journal that nobody reads.
@@ -62,12 +65,30 @@ pub struct Simulation {
     journal: Box<dyn Journal>,
     inputs: Vec<(RegisterId, Value)>,
     timing: Timing,
+    /// What went wrong and was not asked for yet.
+    incidents: Vec<Incident>,
+    /// The first collisions since the start.
+    collisions: Vec<Incident>,
 }
+
+/// How many incidents wait to be asked for; all are counted.
+const WAITING: usize = 256;
+/// How many collisions are kept to the end.
+const KEPT: usize = 16;
 
 impl Simulation {
     /// `engine` on `bank`. The `bell` wakes the IO thread, where there is one.
     pub fn new(engine: Engine, bank: SimulationSide, bell: Option<Bell>, journal: Box<dyn Journal>) -> Simulation {
-        Simulation { engine, bank, bell, journal, inputs: Vec::new(), timing: Timing::new() }
+        Simulation {
+            engine,
+            bank,
+            bell,
+            journal,
+            inputs: Vec::new(),
+            timing: Timing::new(),
+            incidents: Vec::new(),
+            collisions: Vec::new(),
+        }
     }
 
     /// The engine.
@@ -75,9 +96,27 @@ impl Simulation {
         &self.engine
     }
 
-    /// What went wrong with parts since this was asked last.
+    /// What went wrong with parts and bodies since this was asked last, the first 256 of it.
     pub fn take_incidents(&mut self) -> Vec<Incident> {
-        self.engine.take_incidents()
+        std::mem::take(&mut self.incidents)
+    }
+
+    /// The first collisions since the start, at most 16.
+    pub fn collisions(&self) -> &[Incident] {
+        &self.collisions
+    }
+
+    fn note(&mut self) {
+        for incident in self.engine.take_incidents() {
+            self.journal.noted(&incident);
+            let is_collision = matches!(incident.kind, IncidentKind::Collision { .. });
+            if is_collision && self.collisions.len() < KEPT {
+                self.collisions.push(incident.clone());
+            }
+            if self.incidents.len() < WAITING {
+                self.incidents.push(incident);
+            }
+        }
     }
 
     /// Does an operator's `act` before the next step, and has it recorded as `deed`; without an act, something is recorded
@@ -103,8 +142,9 @@ impl Simulation {
         if let Some(number) = self.bank.take(&mut self.inputs) {
             self.journal.taken(number, now);
         }
-        let registers = self.engine.tick(&self.inputs);
-        let edge = self.bank.publish(now, registers);
+        self.engine.tick(&self.inputs);
+        self.note();
+        let edge = self.bank.publish(now, self.engine.registers());
         // The first step's reports are what a session begins with, edge or not.
         if let Some(bell) = self.bell.as_mut().filter(|_| edge || self.timing.steps == 0) {
             bell.ring();

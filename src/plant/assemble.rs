@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use super::file::{AdapterDeclaration, InstanceDeclaration, PartDeclaration, PlantFile};
 use super::instance::build;
-use super::{AdapterSettings, EMBEDDED_HOST, InitialPart, Places, Plant};
+use super::shapes::Shapes;
+use super::{AdapterSettings, EMBEDDED_HOST, InitialPart, Instance, Places, Plant};
 use crate::prototype::kind::KindDescriptor;
 use crate::prototype::source::{Source, join};
 use crate::prototype::{self, Prototype};
@@ -47,6 +48,7 @@ pub(super) fn assemble(
     let tolerances = Tolerances { plant: file.tolerance, default: DEFAULT_TOLERANCE };
     let (mut instances, mut signals, mut references) = (Vec::new(), Vec::new(), Vec::new());
     let mut places = Places::default();
+    let mut shapes = Shapes::new(source);
     for declaration in &file.instances {
         let Some(prototype) = prototypes.get(&key(declaration)).and_then(Option::as_ref) else { continue };
         let built = build(declaration, prototype, tolerances, &mut signals, faults);
@@ -55,7 +57,8 @@ pub(super) fn assemble(
         let effects = declaration.effects.iter().map(|effect| effect.places.clone()).collect();
         places.effects.insert(name.clone(), effects);
         places.parameters.extend(built.set.into_iter().map(|(parameter, place)| ((name.clone(), parameter), place)));
-        instances.push(built.instance);
+        let structure = shapes.of(prototype, built.geometry, &built.instance.shape, faults);
+        instances.push(Instance { structure, ..built.instance });
         references.extend(built.references);
     }
     // The names alone suffice: an instance whose prototype is wrong is there all the same.

@@ -14,6 +14,8 @@ macro_rules! embedded {
 
 /// Every XML file below `models/`; a test sees to it that none is forgotten.
 static FILES: &[(&str, &str)] = embedded![
+    "models/catalogue/BoxSensor/avatar.xml",
+    "models/catalogue/BoxSensor/prototype.xml",
     "models/catalogue/CartesianRobot/avatar.xml",
     "models/catalogue/CartesianRobot/prototype.xml",
     "models/catalogue/ConveyorCurve/avatar.xml",
@@ -22,6 +24,8 @@ static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/EncoderMotor/prototype.xml",
     "models/catalogue/LoadingBay/avatar.xml",
     "models/catalogue/LoadingBay/prototype.xml",
+    "models/catalogue/ProximitySensor/avatar.xml",
+    "models/catalogue/ProximitySensor/prototype.xml",
     "models/catalogue/Pusher/avatar.xml",
     "models/catalogue/Pusher/prototype.xml",
     "models/catalogue/ServoAxis/avatar.xml",
@@ -32,6 +36,8 @@ static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/SuctionCapGripper/prototype.xml",
     "models/catalogue/UnloadingBay/avatar.xml",
     "models/catalogue/UnloadingBay/prototype.xml",
+    "models/catalogue/VisionSensor/avatar.xml",
+    "models/catalogue/VisionSensor/prototype.xml",
     "models/curve/plant.xml",
     "models/depalletizer/plant.xml",
     "models/r001/plant.xml",

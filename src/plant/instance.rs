@@ -4,14 +4,19 @@ use std::collections::BTreeMap;
 
 use super::assemble::Tolerances;
 use super::file::{InstanceDeclaration, PropertyDeclaration};
+use serde_json::Value;
+
 use super::parameter::{Refused, parse, quantities_of};
+use super::shapes::{json, of_script};
 use super::{Instance, Parameter, ParameterValue, Parameters, Task};
 use crate::prototype::avatar::{Condition, SignalDeclaration};
 use crate::prototype::basic::{BasicElement, parse_boolean};
+use crate::prototype::builder;
 use crate::prototype::kind::{ParameterDescriptor, ParameterType};
 use crate::prototype::quantity::{from_si, parse_numbers, si_unit, to_si, with_unit};
 use crate::prototype::setting::Setting;
 use crate::prototype::{self, Assignment, Prototype, substitute};
+use crate::script::ScriptError;
 use crate::signal_map::{Kind, RegisterId, Signal};
 use crate::value::{ElementaryType, Quantity, Unit};
 use crate::xml::{Fault, Faults, Located, Place, nearest, one_of};
@@ -19,6 +24,8 @@ use crate::xml::{Fault, Faults, Located, Place, nearest, one_of};
 /// An instance and what it says where.
 pub(super) struct Built {
     pub instance: Instance,
+    /// The parameters that affect its geometry, as texts with their units.
+    pub geometry: BTreeMap<String, String>,
     /// The instances that it names.
     pub references: Vec<Located<String>>,
     /// The parameters of its tasks that the plant's file sets.
@@ -85,9 +92,10 @@ pub(super) fn build(
         pose: declaration.pose.unwrap_or_default(),
         tasks,
         shape: settings.shape(),
+        structure: None,
         effects: declaration.effects.iter().map(|effect| effect.spec.clone()).collect(),
     };
-    Built { instance, references, set }
+    Built { geometry: settings.geometry(), instance, references, set }
 }
 
 fn refuse_unknown(declaration: &InstanceDeclaration, prototype: &Prototype, faults: &mut Faults) {
@@ -130,6 +138,7 @@ impl<'a> Settings<'a> {
             resolved.text.value = with_unit(&resolved.text.value, parameter.setting.unit);
             settings.parameters.push(resolved);
         }
+        settings.customize(faults);
         for property in &prototype.properties {
             let hidden = prototype.meta.parameters.iter().any(|p| p.setting.name.value == property.setting.name.value);
             let resolved = match set(&property.setting).filter(|_| !hidden) {
@@ -140,6 +149,39 @@ impl<'a> Settings<'a> {
             settings.properties.push(resolved);
         }
         settings
+    }
+
+    /// Lets the prototype's `customizer.js` give values to what the instance does not set.
+    fn customize(&mut self, faults: &mut Faults) {
+        let Some(script) = &self.prototype.customizer else { return };
+        let parameters = self.shape().iter().map(|(name, value)| (name.clone(), json(value))).collect();
+        let given = match builder::customize(script, &Value::Object(parameters)) {
+            Ok(given) => given,
+            Err(error) => return faults.push(of_script(script, &error)),
+        };
+        for (name, value) in given {
+            let index = self.prototype.meta.parameters.iter().position(|p| p.setting.name.value == name);
+            let text = match &value {
+                Value::Number(number) => Some(number.to_string()),
+                Value::Bool(value) => Some(value.to_string()),
+                Value::String(text) => Some(text.clone()),
+                Value::Array(items) => Some(items.iter().map(Value::to_string).collect::<Vec<_>>().join(";")),
+                _ => None,
+            };
+            let (Some(index), Some(text)) = (index, text) else {
+                let message = format!("customize gave {name:?} the value {value}: expected values of the parameters");
+                faults.push(of_script(script, &ScriptError { line: None, message }));
+                continue;
+            };
+            let resolved = &mut self.parameters[index];
+            if resolved.is_set {
+                continue;
+            }
+            let setting = &self.prototype.meta.parameters[index].setting;
+            let si = setting.unit.map(|unit| si_unit(unit.quantity));
+            resolved.text.value = if setting.ty.is_numeric() { with_unit(&text, si) } else { text };
+            refuse_violation(setting, resolved, faults);
+        }
     }
 
     /// The value of a setting that no instance sets: its default, references replaced.
@@ -160,6 +202,14 @@ impl<'a> Settings<'a> {
         let text = Located::new(replaced.unwrap_or_else(|_| text.clone()), &setting.default.place);
         let (unit, declared_tolerance) = (setting.unit, setting.tolerance);
         Resolved { text, is_set: false, unit, set_tolerance: None, declared_tolerance }
+    }
+
+    fn geometry(&self) -> BTreeMap<String, String> {
+        let parameters = self.prototype.meta.parameters.iter().zip(&self.parameters);
+        let affecting = parameters.filter(|(parameter, _)| parameter.affects_geometry);
+        affecting
+            .map(|(parameter, resolved)| (parameter.setting.name.value.clone(), resolved.text.value.clone()))
+            .collect()
     }
 
     /// The parameters of the meta-descriptor as values. What is wrong with a text is told where it is used.

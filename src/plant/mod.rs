@@ -11,12 +11,14 @@ mod instance;
 mod load;
 mod parameter;
 mod places;
+mod shapes;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
 use crate::prototype::kind::KindDescriptor;
+use crate::prototype::structure::Structure;
 use crate::signal_map::{RegisterId, SignalMap};
 
 pub use self::effect_spec::{EffectPlace, EffectSpec};
@@ -88,6 +90,9 @@ pub struct Instance {
     pub tasks: Vec<Task>,
     /// The parameters of its prototype's meta-descriptor, by name, in SI units: what its shape follows from.
     pub shape: BTreeMap<String, ParameterValue>,
+    /// What its prototype's files make of them; `None` where there are none and the shape is that of its device kinds. Instances
+    /// of one prototype whose parameters affect the geometry alike share it.
+    pub structure: Option<Arc<Structure>>,
     /// What its device adds to the nominal law.
     pub effects: Vec<EffectSpec>,
 }

@@ -27,7 +27,7 @@ pub struct MetaDescriptor {
     pub category: Option<String>,
     /// The script that builds its shape from its parameters. The reference requires one; here a prototype without is a
     /// law without a shape.
-    pub generator: Option<String>,
+    pub generator: Option<Located<String>>,
     /// Centre of the box about its shape: x, y, z in m.
     pub bounds_center: Option<[f64; 3]>,
     /// Size of the box about its shape: x, y, z in m.
@@ -110,7 +110,7 @@ pub fn read(root: &Element, faults: &mut Faults) -> Option<MetaDescriptor> {
         display_name: display_name?,
         vendor: vendor?,
         category: properties.text("category"),
-        generator: properties.text("generator"),
+        generator: properties.get("generator").cloned(),
         bounds_center: properties.vector("bounds_center", faults),
         bounds_size: properties.vector("bounds_size", faults),
         parameters,
@@ -272,7 +272,10 @@ mod tests {
         let meta = meta.expect("a meta-descriptor");
         assert_eq!((meta.name.value.as_str(), meta.version), ("Cartesian", 1));
         assert_eq!((meta.display_name.as_str(), meta.vendor.as_str()), ("Cartesian Robot", "TTS"));
-        assert_eq!((meta.category.as_deref(), meta.generator.as_deref()), (Some("handling"), Some("builder.js")));
+        assert_eq!(
+            (meta.category.as_deref(), meta.generator.as_ref().map(|file| file.value.as_str())),
+            (Some("handling"), Some("builder.js"))
+        );
         assert_eq!((meta.bounds_center, meta.bounds_size), (None, Some([0.002, 0.0015, 1.2])));
         let [speed] = meta.parameters.as_slice() else { panic!("one parameter") };
         assert_eq!(speed.display_name.as_deref(), Some("Z speed [m/min]"));

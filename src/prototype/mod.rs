@@ -7,21 +7,25 @@
 
 pub mod avatar;
 pub mod basic;
+pub mod builder;
 mod check;
 pub mod kind;
 pub mod meta;
+pub mod packed;
 pub mod quantity;
 pub mod setting;
 pub mod source;
+pub mod structure;
 mod substitute;
 pub mod words;
 
 use self::avatar::{Avatar, Property, SignalDeclaration};
+use self::builder::Script;
 use self::kind::KindDescriptor;
 use self::meta::{MetaDescriptor, Parameter};
 use self::setting::Setting;
 use self::source::{Source, SourceError, join};
-use crate::xml::{Faults, Located, nearest, parse};
+use crate::xml::{Element, Faults, Located, nearest, parse};
 
 pub use self::substitute::substitute;
 
@@ -34,6 +38,14 @@ pub struct Prototype {
     /// What can be set about an instance, beside the parameters of `meta`.
     pub properties: Vec<Property>,
     pub tasks: Vec<Task>,
+    /// The folder that its files are in.
+    pub folder: String,
+    /// The root of `structure.xml`, where there is one; its references are replaced for each instance.
+    pub structure: Option<Element>,
+    /// The script that builds its shape, which its meta-descriptor names as generator.
+    pub builder: Option<Script>,
+    /// The script that gives values to parameters which an instance leaves alone: `customizer.js`, where there is one.
+    pub customizer: Option<Script>,
 }
 
 /// A signal and where it leads.
@@ -126,18 +138,37 @@ fn read_folder(
         let fault = meta.name.fault(found, format!("expected {:?}, the name of its folder", name.value));
         own.push(fault.beside(&name.place, "asked for"));
     }
+    let structure_path = join(folder, "structure.xml");
+    let structure = match source.read(&structure_path) {
+        Ok(text) => read_xml(&structure_path, &text, &mut own, |root, _| Some(root.clone())),
+        Err(SourceError::NotFound { .. }) => None,
+        Err(error) => {
+            own.push(name.fault(error.to_string(), "expected a structure that can be read"));
+            None
+        }
+    };
     let prototype = meta.and_then(|meta| combine(meta, avatar, kinds, &mut own));
+    let prototype = prototype.map(|prototype| {
+        let script = |file: &str| {
+            let path = join(folder, file);
+            source.read(&path).map(|text| Script { path, text })
+        };
+        let customizer = script("customizer.js").ok();
+        let builder = prototype.meta.generator.as_ref().and_then(|file| match script(&file.value) {
+            Ok(script) => Some(script),
+            Err(error) => {
+                own.push(file.fault(error.to_string(), "expected a script in the prototype's folder"));
+                None
+            }
+        });
+        Prototype { folder: folder.to_owned(), structure, builder, customizer, ..prototype }
+    });
     let sound = own.is_empty();
     faults.append(own);
     prototype.filter(|_| sound)
 }
 
-fn read_xml<T>(
-    path: &str,
-    text: &str,
-    faults: &mut Faults,
-    read: fn(&crate::xml::Element, &mut Faults) -> Option<T>,
-) -> Option<T> {
+fn read_xml<T>(path: &str, text: &str, faults: &mut Faults, read: fn(&Element, &mut Faults) -> Option<T>) -> Option<T> {
     match parse(path, text) {
         Ok(root) => read(&root, faults),
         Err(malformed) => {
@@ -171,7 +202,16 @@ fn combine(
             Signal { bindings: check::bindings(&declaration, &tasks, faults), declaration }
         })
         .collect();
-    Some(Prototype { meta, signals, properties, tasks })
+    Some(Prototype {
+        meta,
+        signals,
+        properties,
+        tasks,
+        folder: String::new(),
+        structure: None,
+        builder: None,
+        customizer: None,
+    })
 }
 
 fn same_identity(meta: &MetaDescriptor, avatar: &Avatar, faults: &mut Faults) {

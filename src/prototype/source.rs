@@ -6,6 +6,11 @@ use std::collections::BTreeMap;
 pub trait Source {
     /// The text of the file at `path`, which has `/` between its parts: `models/rig/plant.xml`.
     fn read(&self, path: &str) -> Result<String, SourceError>;
+
+    /// The bytes of the file at `path`, which need not be text.
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, SourceError> {
+        self.read(path).map(String::into_bytes)
+    }
 }
 
 /// Why a source gives no text.
@@ -22,6 +27,10 @@ pub enum SourceError {
 impl Source for &dyn Source {
     fn read(&self, path: &str) -> Result<String, SourceError> {
         (**self).read(path)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, SourceError> {
+        (**self).read_bytes(path)
     }
 }
 
@@ -43,6 +52,13 @@ impl<A: Source, B: Source> Source for Layered<A, B> {
     fn read(&self, path: &str) -> Result<String, SourceError> {
         match self.0.read(path) {
             Err(SourceError::NotFound { .. }) => self.1.read(path),
+            read => read,
+        }
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, SourceError> {
+        match self.0.read_bytes(path) {
+            Err(SourceError::NotFound { .. }) => self.1.read_bytes(path),
             read => read,
         }
     }

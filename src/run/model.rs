@@ -8,6 +8,7 @@ use crate::device;
 use crate::engine::Engine;
 use crate::plant::embedded::Embedded;
 use crate::plant::{self, Instance, ModelError, Plant};
+use crate::prototype::packed::Packed;
 use crate::prototype::source::{Layered, Source, SourceError};
 use crate::signal_map::xml;
 
@@ -17,21 +18,29 @@ pub struct Disk;
 
 impl Source for Disk {
     fn read(&self, path: &str) -> Result<String, SourceError> {
-        std::fs::read_to_string(path).map_err(|error| match error.kind() {
-            // A folder in place of a file, or a file in place of a folder: there is no such file.
-            ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
-                SourceError::NotFound { path: path.to_owned() }
-            }
-            ErrorKind::InvalidData => {
-                SourceError::Unreadable { path: path.to_owned(), reason: "it is not UTF-8".to_owned() }
-            }
-            _ => SourceError::Unreadable { path: path.to_owned(), reason: error.to_string() },
-        })
+        std::fs::read_to_string(path).map_err(|error| unreadable(path, &error))
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, SourceError> {
+        std::fs::read(path).map_err(|error| unreadable(path, &error))
+    }
+}
+
+fn unreadable(path: &str, error: &std::io::Error) -> SourceError {
+    match error.kind() {
+        // A folder in place of a file, or a file in place of a folder: there is no such file.
+        ErrorKind::NotFound | ErrorKind::NotADirectory | ErrorKind::IsADirectory => {
+            SourceError::NotFound { path: path.to_owned() }
+        }
+        ErrorKind::InvalidData => {
+            SourceError::Unreadable { path: path.to_owned(), reason: "it is not UTF-8".to_owned() }
+        }
+        _ => SourceError::Unreadable { path: path.to_owned(), reason: error.to_string() },
     }
 }
 
 /// Where a run looks for files: on the disk first, then among those compiled in.
-pub const SOURCE: Layered<Disk, Embedded> = Layered(Disk, Embedded);
+pub const SOURCE: Layered<Packed<Disk>, Embedded> = Layered(Packed(Disk), Embedded);
 
 /// Loads a model: a folder or a plant's file on the disk, or a name of the catalogue (`models/rig`, `rig`), which works
 /// from any folder.
@@ -52,7 +61,7 @@ pub fn engine(plant: &Plant, step: Duration, seed: u64) -> Result<Engine, RunErr
 pub fn hash(plant: &Plant) -> String {
     let mut text = xml::write(&plant.signal_map);
     // Shapes are left out: what they do to behaviour, the tasks' parameters say.
-    for Instance { name, prototype, pose, tasks, effects, shape: _ } in &plant.instances {
+    for Instance { name, prototype, pose, tasks, effects, shape: _, structure: _ } in &plant.instances {
         text.push_str(&format!("{name} {prototype} {pose:?} {effects:?}\n"));
         for task in tasks {
             text.push_str(&format!("{} {} {:?} {:?}\n", task.name, task.kind.name, task.parameters, task.ports));

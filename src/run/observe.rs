@@ -17,7 +17,7 @@ use crate::value::Value;
 /// # Errors
 /// The plant cannot be built, or its automation does not fit it.
 pub fn observe(plant: Plant, duration: Duration, seed: u64, step: Duration) -> Result<Observation, RunError> {
-    let options = Options { duration: Some(duration), seed, step, ..Options::new(&plant.name) };
+    let options = Options { duration: Some(duration), seed, step, collisions: false, ..Options::new(&plant.name) };
     let plant = Arc::new(plant);
     let mut stepper = Stepper::of(&options, plant.clone())?;
     let mut observed = Observation::default();

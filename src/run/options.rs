@@ -30,6 +30,10 @@ pub struct Options {
     pub speed: Speed,
     /// The seed of all that is random in the plant.
     pub seed: u64,
+    /// Whether the bodies of the scene are watched for collisions, beside the parts.
+    pub collisions: bool,
+    /// Whether the run ends with the first collision.
+    pub stop_on_collision: bool,
     /// Where to record the session.
     pub record: Option<RecordTo>,
     /// Whether it can be controlled while it goes on; see [`control`](super::control).
@@ -95,6 +99,8 @@ impl Options {
             low: None,
             speed: Speed::Wall(1.0),
             seed: 0,
+            collisions: true,
+            stop_on_collision: false,
             record: None,
             controlled: false,
             timeout: None,

@@ -16,11 +16,15 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crossbeam::queue::SegQueue;
+use serde_json::json;
 
 use super::ledger::{Ledger, partial};
+use super::summary::CollisionReport;
 use super::{Facts, Options, RecordTo, RunError, model};
 use crate::adapter::Witness;
+use crate::engine::Incident;
 use crate::pace::{Journal, NoJournal};
+use crate::signal_map::SignalMap;
 use crate::time::Instant;
 use crate::trace::{Compression, Header, Record, Recorder, Sender, Source, Writer};
 
@@ -77,7 +81,10 @@ struct Telling {
 }
 
 /// The simulation thread's end.
-struct Chronicle(Arc<SegQueue<Record>>);
+struct Chronicle {
+    records: Arc<SegQueue<Record>>,
+    signal_map: Arc<SignalMap>,
+}
 
 /// Begins the recording that `options` ask for.
 pub(super) fn start(options: &Options, facts: &Facts) -> Result<(Recording, Tap, Box<dyn Journal>), RunError> {
@@ -102,7 +109,11 @@ pub(super) fn start(options: &Options, facts: &Facts) -> Result<(Recording, Tap,
     };
     let thread = thread::Builder::new().name("recorder".to_owned()).spawn(write).map_err(RunError::Thread)?;
     let tap = Tap(Some(Telling { queue: Arc::clone(&queue), wake }));
-    Ok((Recording(Some(Writing { path: Some(path), thread })), tap, Box::new(Chronicle(queue))))
+    Ok((
+        Recording(Some(Writing { path: Some(path), thread })),
+        tap,
+        Box::new(Chronicle { records: queue, signal_map: Arc::clone(&facts.plant.signal_map) }),
+    ))
 }
 
 /// Begins to listen, so that traces can be begun and ended while the run goes on; where `options` ask for a recording, it is
@@ -142,7 +153,12 @@ pub(super) fn listen(
         return Err(RunError::Recording { path: path.clone(), reason: error.to_string() });
     }
     let tap = Tap(Some(Telling { queue: Arc::clone(&queue), wake }));
-    Ok((Recording(Some(Writing { path, thread })), tap, Box::new(Chronicle(queue)), control))
+    Ok((
+        Recording(Some(Writing { path, thread })),
+        tap,
+        Box::new(Chronicle { records: queue, signal_map: Arc::clone(&facts.plant.signal_map) }),
+        control,
+    ))
 }
 
 /// Begins and ends traces as ordered.
@@ -249,11 +265,18 @@ impl Witness for Tap {
 
 impl Journal for Chronicle {
     fn taken(&mut self, number: u64, at: Instant) {
-        self.0.push(Record::Taken { at, number });
+        self.records.push(Record::Taken { at, number });
+    }
+
+    fn noted(&mut self, incident: &Incident) {
+        if let Some(collision) = CollisionReport::of(incident, &self.signal_map) {
+            let event = json!({ "collision": collision }).to_string();
+            self.records.push(Record::Event { at: incident.at, from: Sender::Engine, event });
+        }
     }
 
     fn operated(&mut self, at: Instant, deed: String) {
-        self.0.push(Record::Event { at, from: Sender::Operator, event: deed });
+        self.records.push(Record::Event { at, from: Sender::Operator, event: deed });
     }
 }
 

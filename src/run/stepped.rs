@@ -53,7 +53,10 @@ impl Stepper {
 
     pub(super) fn of(options: &Options, plant: Arc<Plant>) -> Result<Stepper, RunError> {
         let mut engine = model::engine(&plant, options.step, options.seed)?;
-        let scene = options.controlled.then(|| show(&mut engine, &plant));
+        let scene = (options.controlled || options.collisions).then(|| show(&mut engine, &plant));
+        if options.collisions {
+            engine.watch();
+        }
         let automation = Automation::new(plant.signal_map.clone(), Control::ByPlant)?;
         let mut connector = InProcess::to(Embedded { automation, connection: ConnectionId(0) });
         connector.configure(options.settings(&plant, Endpoint::new("localhost", 1)))?;
@@ -145,13 +148,16 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunE
     let (say, notices) = bounded(NOTICES);
     let (simulation_frames, simulation_viewer) = live::channel();
     let (exchange_frames, exchange_viewer) = live::channel();
-    let (steps, asked) = (options.steps(), stop.clone());
+    let (steps, asked, to_first) = (options.steps(), stop.clone(), options.stop_on_collision);
     let work = move || {
         let mut stepper = stepper;
         let mut shown = Instant::ZERO;
         let mut frame = SimulationFrame::default();
         let mut tempo = Tempo { desk, kept: None };
-        while steps.is_none_or(|steps| stepper.simulation.timing().steps < steps) && !asked.is_asked() {
+        while steps.is_none_or(|steps| stepper.simulation.timing().steps < steps)
+            && !asked.is_asked()
+            && !(to_first && stepper.engine().collisions() > 0)
+        {
             if !tempo.keep(&mut stepper) {
                 continue;
             }

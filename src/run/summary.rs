@@ -1,14 +1,19 @@
 //! What a run came to.
 
+use std::collections::BTreeMap;
+
 use hdrhistogram::Histogram;
 use serde::Serialize;
+use serde_json::json;
 
 use super::Facts;
 use crate::adapter::{Event, Traffic};
-use crate::engine::PartCounts;
+use crate::engine::{Incident, IncidentKind, PartCounts};
 use crate::pace::{Simulation, Timing};
 use crate::session::{ClientEvent, Ending};
+use crate::signal_map::{RegisterId, SignalMap};
 use crate::time::Instant;
+use crate::value::Value;
 
 /// The end of a run, in the words of `run --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -52,8 +57,10 @@ pub struct Summary {
     pub parts_lost: u64,
     pub pallets_in: u64,
     pub pallets_out: u64,
-    /// Times that two parts, or a part and a device, were found inside one another.
+    /// Times that two parts, a part and a body, or two bodies came to be inside one another.
     pub collisions: u64,
+    /// The first of them, at most 16.
+    pub first_collisions: Vec<CollisionReport>,
     /// The engine's whole state at the end, as a hash in hexadecimal digits: equal runs have equal hashes.
     pub state_hash: String,
     /// From a value that the automation sends to the simulation's answer to it, microseconds; null where it cannot be
@@ -73,10 +80,46 @@ pub struct Summary {
     pub recorded: Option<String>,
 }
 
+/// A collision, as it stands in a summary and in a trace.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CollisionReport {
+    /// The end of the step in which the two came to be in one another, s.
+    pub t: f64,
+    pub between: [String; 2],
+    pub depth_m: f64,
+    /// Where the first of the two was.
+    pub place_m: [f64; 3],
+    /// The signals of the instances involved at that moment, as they are on the wire.
+    pub signals: BTreeMap<String, serde_json::Value>,
+}
+
+impl CollisionReport {
+    /// Of an incident, if it is a collision.
+    pub(super) fn of(incident: &Incident, signal_map: &SignalMap) -> Option<CollisionReport> {
+        let IncidentKind::Collision { between, depth, place, .. } = &incident.kind else { return None };
+        let said = |(register, value): &(RegisterId, Value)| {
+            let value = match value {
+                Value::Bool(is) => json!(is),
+                other => json!(other.to_f64()),
+            };
+            (signal_map.signal(*register).name.clone(), value)
+        };
+        Some(CollisionReport {
+            t: incident.at.seconds(),
+            between: between.clone(),
+            depth_m: *depth,
+            place_m: *place,
+            signals: incident.signals.iter().map(said).collect(),
+        })
+    }
+}
+
 /// What the simulation came to.
 pub(super) struct Simulated {
     timing: Timing,
     counts: PartCounts,
+    collisions: u64,
+    first_collisions: Vec<Incident>,
     state_hash: u64,
     /// Where its time ended.
     now: Instant,
@@ -90,6 +133,8 @@ impl Simulated {
         Simulated {
             timing: simulation.timing().clone(),
             counts: engine.counts(),
+            collisions: engine.collisions(),
+            first_collisions: simulation.collisions().to_vec(),
             state_hash: engine.state_hash(),
             now: engine.now(),
             wall_s: wall.seconds(),
@@ -161,7 +206,12 @@ impl Summary {
             parts_lost: counts.boxes_lost,
             pallets_in: counts.pallets_in,
             pallets_out: counts.pallets_out,
-            collisions: counts.collisions,
+            collisions: simulated.collisions,
+            first_collisions: simulated
+                .first_collisions
+                .iter()
+                .filter_map(|incident| CollisionReport::of(incident, &facts.plant.signal_map))
+                .collect(),
             state_hash: format!("{:016x}", simulated.state_hash),
             round_trip_us,
             step_us: Quantiles::of_ns(&timing.computing_ns),

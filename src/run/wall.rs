@@ -33,7 +33,10 @@ pub(super) const FRAME_INTERVAL: Duration = Duration::from_millis(50);
 /// Starts a run of `plant` at `speed` simulated seconds a second.
 pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, speed: f64) -> Result<Handle, RunError> {
     let mut engine = model::engine(&plant, options.step, options.seed)?;
-    let scene = options.controlled.then(|| show(&mut engine, &plant));
+    let scene = (options.controlled || options.collisions).then(|| show(&mut engine, &plant));
+    if options.collisions {
+        engine.watch();
+    }
     let (server, endpoint, place) = reach(connect, &plant)?;
     let mut connector = WebSocketConnector::new();
     connector.configure(options.settings(&plant, endpoint))?;
@@ -69,6 +72,7 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
         say,
         stop: stop.clone(),
         steps: options.steps(),
+        stop_on_collision: options.stop_on_collision,
         speed,
         desk,
     };
@@ -145,6 +149,7 @@ struct Simulating {
     say: Sender<Notice>,
     stop: Stop,
     steps: Option<u64>,
+    stop_on_collision: bool,
     speed: f64,
     /// Where it can be controlled.
     desk: Option<Desk>,
@@ -153,7 +158,7 @@ struct Simulating {
 impl Simulating {
     /// Simulates until the last step or until it is stopped. When it is done the bell is gone: that ends the IO thread.
     fn run(self) -> Simulated {
-        let Simulating { mut simulation, frames, say, stop, steps, speed, mut desk } = self;
+        let Simulating { mut simulation, frames, say, stop, steps, stop_on_collision, speed, mut desk } = self;
         let clock = WallClock::start();
         let frame_steps = |speed: f64| {
             ((FRAME_INTERVAL.as_secs_f64() * speed / simulation.engine().step().as_secs_f64()) as u64).max(1)
@@ -168,7 +173,8 @@ impl Simulating {
                 spare.fill(simulation);
                 spare = frames.publish(std::mem::take(&mut spare)).unwrap_or_default();
             }
-            if stop.is_asked() || steps.is_some_and(|steps| made >= steps) {
+            let has_collided = stop_on_collision && simulation.engine().collisions() > 0;
+            if has_collided || stop.is_asked() || steps.is_some_and(|steps| made >= steps) {
                 return Next::End;
             }
             desk.as_mut().map_or(Next::Step, |desk| desk.attend(simulation))

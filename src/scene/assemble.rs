@@ -3,14 +3,18 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{BeamMark, Body, Colour, Joint, Mesh, MeshId, Node, NodeId, Scene};
+use super::{BeamMark, Body, Colour, MeshId, Node, NodeId, Scene};
+use crate::kinematics::Joint;
 use crate::kinematics::{DPose3, DVec3};
+use crate::mesh::Mesh;
 
 /// A scene that is being put together.
 #[derive(Debug, Default)]
 pub struct Assembly {
     scene: Scene,
     by_key: BTreeMap<String, MeshId>,
+    /// Of meshes that the plant holds, which outlive the assembly.
+    by_address: BTreeMap<usize, MeshId>,
 }
 
 impl Assembly {
@@ -51,25 +55,40 @@ impl Assembly {
         }
         let mut mesh = Mesh::new(key);
         make(&mut mesh);
-        self.add_mesh(key, Arc::new(mesh))
-    }
-
-    /// Takes a mesh in under `key`, which nobody asked for before.
-    pub fn add_mesh(&mut self, key: &str, mesh: Arc<Mesh>) -> MeshId {
-        let id = MeshId(self.scene.meshes.len() as u32);
-        self.scene.meshes.push(mesh);
+        let id = self.take(Arc::new(mesh));
         self.by_key.insert(key.to_owned(), id);
         id
     }
 
+    /// The mesh that others may have as well: the same one is taken in once.
+    pub fn shared(&mut self, mesh: &Arc<Mesh>) -> MeshId {
+        let key = Arc::as_ptr(mesh).addr();
+        if let Some(id) = self.by_address.get(&key) {
+            return *id;
+        }
+        let id = self.take(Arc::clone(mesh));
+        self.by_address.insert(key, id);
+        id
+    }
+
+    fn take(&mut self, mesh: Arc<Mesh>) -> MeshId {
+        self.scene.meshes.push(mesh);
+        MeshId(self.scene.meshes.len() as u32 - 1)
+    }
+
     /// Hangs a mesh up at `place` of a frame; something that others can run into.
     pub fn solid(&mut self, node: NodeId, mesh: MeshId, place: DPose3, colour: Colour) {
-        self.scene.bodies.push(Body { node, mesh, place, colour, is_solid: true });
+        self.scene.bodies.push(Body { node, mesh, place, colour, is_solid: true, bears_parts: false });
+    }
+
+    /// Hangs a mesh up that parts lie on or are pushed by; others can run into it.
+    pub fn bearing(&mut self, node: NodeId, mesh: MeshId, place: DPose3, colour: Colour) {
+        self.scene.bodies.push(Body { node, mesh, place, colour, is_solid: true, bears_parts: true });
     }
 
     /// Hangs a mesh up that is there for the eye alone.
     pub fn shown(&mut self, node: NodeId, mesh: MeshId, place: DPose3, colour: Colour) {
-        self.scene.bodies.push(Body { node, mesh, place, colour, is_solid: false });
+        self.scene.bodies.push(Body { node, mesh, place, colour, is_solid: false, bears_parts: false });
     }
 
     /// Adds the beam that the instance of `node` reports as `report`.

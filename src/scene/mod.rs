@@ -9,22 +9,17 @@
 //! `$.Spintore.T`.
 
 mod assemble;
-mod joint;
-mod mesh;
-mod outline;
 mod poses;
-mod primitive;
 mod shape;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::kinematics::{DPose3, DVec3};
+use crate::kinematics::{DPose3, DVec3, Joint};
+use crate::mesh::Mesh;
 use crate::plant::PartKind;
 
 pub use self::assemble::Assembly;
-pub use self::joint::{Joint, JointKind};
-pub use self::mesh::Mesh;
 pub use self::poses::Poses;
 
 /// A frame's place in its scene's list of frames. Frames stand in depth-first order: a frame, then all that is under it.
@@ -78,6 +73,8 @@ pub struct Body {
     pub colour: Colour,
     /// Whether something can run into it. Lamps, cables and markings are there for the eye alone.
     pub is_solid: bool,
+    /// Whether parts lie on it or are pushed by it: what they do to each other is the floor's.
+    pub bears_parts: bool,
 }
 
 /// The beam of a light barrier. What it sees is the report of the same name of its instance.

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{JointKind, NodeId, Scene};
+use super::{NodeId, Scene};
 use crate::kinematics::DPose3;
+use crate::kinematics::JointKind;
 
 /// The joints' values and the frames' poses in the world. Nothing here allocates once it is made.
 #[derive(Clone, Debug)]

@@ -5,9 +5,10 @@ use serde_json::{Value, json};
 
 use super::{Source, Stage};
 use crate::kinematics::DPose3;
+use crate::mesh::Mesh;
 use crate::plant::{EffectSpec, Instance, ParameterValue, PartKind, Plant};
 use crate::prototype::quantity::si_unit;
-use crate::scene::{Mesh, Scene, part_colour};
+use crate::scene::{Scene, part_colour};
 use crate::signal_map::{Direction, Kind, RateClass, Signal};
 
 /// `GET /api/plant`.

@@ -10,6 +10,9 @@ mod bays;
 mod carry;
 mod contact;
 mod hold;
+mod look;
+#[cfg(test)]
+mod look_tests;
 mod operate;
 mod part;
 mod push;
@@ -20,9 +23,12 @@ mod tally;
 mod tests;
 
 pub(super) use bays::{Bay, Drain};
+pub(super) use look::Eye;
 pub(super) use operate::PartRequest;
+use part::Parts;
+pub(super) use part::Slot;
 pub(super) use part::Support;
-use part::{Parts, Slot};
+pub(super) use tally::kind_name;
 pub use tally::{Incident, IncidentKind, PartCounts};
 
 use crate::device::{Plate, Transfer};
@@ -115,6 +121,7 @@ pub(super) struct Floor {
     pub cups: Vec<CupsBody>,
     pub bays: Vec<Bay>,
     pub drains: Vec<Drain>,
+    pub eyes: Vec<Eye>,
     pub parts: Parts,
     pub tally: Tally,
     /// Parts that moved in this step by something other than a belt.

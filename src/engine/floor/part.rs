@@ -7,6 +7,13 @@ use crate::plant::PartKind;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(in crate::engine) struct Slot(u32);
 
+impl Slot {
+    /// Its index in the store.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// What a part stands on or hangs from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::engine) enum Support {

@@ -7,7 +7,9 @@ use super::contact::{self, COLLISION_M};
 use super::part::{Part, Parts};
 use crate::kinematics::{DVec3, Motion};
 use crate::plant::PartKind;
+use crate::signal_map::RegisterId;
 use crate::time::Instant;
+use crate::value::Value;
 
 /// How many parts came and went since the start. What stands in the plant at t = 0 has come in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,6 +40,9 @@ pub struct Incident {
     /// The end of the step in which it happened.
     pub at: Instant,
     pub kind: IncidentKind,
+    /// At a collision, the signals of the instances involved at that moment; see
+    /// [`take_incidents`](crate::engine::Engine::take_incidents).
+    pub signals: Vec<(RegisterId, Value)>,
 }
 
 /// What happened.
@@ -45,18 +50,19 @@ pub struct Incident {
 pub enum IncidentKind {
     /// Part `number` fell: nothing was beneath it.
     Lost { part: PartKind, number: u64, place: [f64; 3], from: String },
-    /// Two parts, or a part and a plate, are in one another by more than 0.1 mm; `depth` in metres.
-    Collision { between: [String; 2], depth: f64, place: [f64; 3] },
+    /// Two are in one another by more than 0.1 mm: parts, plates, or bodies of the scene; `depth` in metres, `place` where
+    /// the first of them is. `instances` are those that they belong to, or that carry them.
+    Collision { between: [String; 2], depth: f64, place: [f64; 3], instances: Vec<String> },
 }
 
 impl fmt::Display for Incident {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.kind {
             IncidentKind::Lost { part, number, place: [x, y, z], from } => {
-                let part = name(*part);
+                let part = kind_name(*part);
                 write!(f, "at {}: {part} {number} fell from {from} at x {x:.3}, y {y:.3}, z {z:.3} m", self.at)
             }
-            IncidentKind::Collision { between: [a, b], depth, place: [x, y, z] } => {
+            IncidentKind::Collision { between: [a, b], depth, place: [x, y, z], .. } => {
                 let millimetres = depth * 1e3;
                 write!(
                     f,
@@ -68,7 +74,7 @@ impl fmt::Display for Incident {
     }
 }
 
-fn name(kind: PartKind) -> &'static str {
+pub(in crate::engine) fn kind_name(kind: PartKind) -> &'static str {
     match kind {
         PartKind::Box => "box",
         PartKind::Pallet => "pallet",
@@ -137,9 +143,9 @@ impl Tally {
         self.keep(IncidentKind::Lost { part: part.kind, number: part.number, place, from: from.to_owned() });
     }
 
-    fn keep(&mut self, kind: IncidentKind) {
+    pub fn keep(&mut self, kind: IncidentKind) {
         if self.incidents.len() < KEPT {
-            self.incidents.push(Incident { at: self.now, kind });
+            self.incidents.push(Incident { at: self.now, kind, signals: Vec::new() });
         }
     }
 }
@@ -162,7 +168,8 @@ impl super::Floor {
                 self.tally.collisions += 1;
                 let between = [self.title(first.id), self.title(second.id)];
                 let place = self.place_of(first.id).to_array();
-                self.tally.keep(IncidentKind::Collision { between, depth: -apart, place });
+                let instances = [first.id, second.id].iter().flat_map(|id| self.instance_of(*id)).collect();
+                self.tally.keep(IncidentKind::Collision { between, depth: -apart, place, instances });
             }
         }
         // What stands still in one another stays so.
@@ -179,11 +186,18 @@ impl super::Floor {
         }
     }
 
+    fn instance_of(&self, id: BodyId) -> Option<String> {
+        match id {
+            BodyId::Group(slot) => self.carrier(slot),
+            BodyId::Plate(plate) => Some(self.plates[plate].name.clone()),
+        }
+    }
+
     fn title(&self, id: BodyId) -> String {
         match id {
             BodyId::Group(slot) => {
                 let part = self.parts.get(slot);
-                format!("{} {}", name(part.kind), part.number)
+                format!("{} {}", kind_name(part.kind), part.number)
             }
             BodyId::Plate(plate) => format!("the plate of {}", self.plates[plate].name),
         }

@@ -2,7 +2,7 @@
 
 use super::{FRAME, PAINT, at};
 use crate::kinematics::{DPose3, DQuat, DVec2, DVec3};
-use crate::scene::primitive::{cuboid, extrude};
+use crate::mesh::primitive::{cuboid, extrude};
 use crate::scene::{Assembly, Colour, NodeId};
 
 /// Which way parts go.

@@ -3,10 +3,11 @@
 
 use super::part::{leg, motor, profile};
 use super::{BRIGHT, DRIVE, FRAME, PAINT, at, vector};
+use crate::kinematics::Joint;
 use crate::kinematics::{DPose3, DQuat, DVec3};
+use crate::mesh::primitive::{cuboid, lathe};
 use crate::plant::Instance;
-use crate::scene::primitive::{cuboid, lathe};
-use crate::scene::{Assembly, Joint, NodeId};
+use crate::scene::{Assembly, NodeId};
 
 /// The frame that a tool hangs on.
 pub(super) const TOOL: &str = "R";

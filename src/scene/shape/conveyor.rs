@@ -3,9 +3,9 @@
 use super::part::{PROFILE_M, ROLLER_M, barrier, geared_motor, leg, profile, pulley, roller};
 use super::{BELT, FRAME, at};
 use crate::kinematics::{DPose3, DQuat, DVec3};
+use crate::mesh::outline::stadium;
+use crate::mesh::primitive::{cuboid, tube};
 use crate::plant::Parameters;
-use crate::scene::outline::stadium;
-use crate::scene::primitive::{cuboid, tube};
 use crate::scene::{Assembly, NodeId};
 
 /// Thickness of a belt, m.
@@ -63,7 +63,7 @@ fn belt(assembly: &mut Assembly, node: NodeId, length: f64, width: f64, turn: f6
         );
         tube(mesh, &stadium(reach, turn, 24), &stadium(reach, turn - THICKNESS_M, 24), width, &across);
     });
-    assembly.solid(node, mesh, DPose3::IDENTITY, BELT);
+    assembly.bearing(node, mesh, DPose3::IDENTITY, BELT);
 }
 
 /// Legs in pairs, joined across and along.

@@ -6,8 +6,8 @@ use super::conveyor::{PITCH_M, PLATE_M, SPAN_M, THICKNESS_M, barriers};
 use super::part::{ROLLER_M, geared_motor, leg, roller};
 use super::{BELT, FRAME};
 use crate::kinematics::{DPose3, DQuat, DVec2};
+use crate::mesh::primitive::sector;
 use crate::plant::Parameters;
-use crate::scene::primitive::sector;
 use crate::scene::{Assembly, NodeId};
 
 /// Corners per radian of an arc: its outer edge is off by less than a millimetre at 1.5 m.
@@ -27,7 +27,7 @@ pub(super) fn build(assembly: &mut Assembly, node: NodeId, own: &Parameters, hei
             sector(mesh, pivot, [inner, outer], [top - THICKNESS_M, top], [start, angle], count);
         }
     });
-    assembly.solid(node, belt, DPose3::IDENTITY, BELT);
+    assembly.bearing(node, belt, DPose3::IDENTITY, BELT);
     let plates = assembly.mesh(&format!("curved plates {key}"), |mesh| {
         for from in [inner - 0.015, outer + 0.012] {
             sector(mesh, pivot, [from, from + 0.003], [-0.006 - PLATE_M, -0.006], [start, angle], count);

@@ -1,10 +1,11 @@
 //! A suction gripper: a plate below the tool with bellows cups, whose rims are where the cups' frame is.
 
 use super::{PAINT, RUBBER, STEEL, at};
+use crate::kinematics::Joint;
 use crate::kinematics::{DPose3, DQuat, DVec3};
+use crate::mesh::primitive::{bar, cuboid, lathe};
 use crate::plant::Parameters;
-use crate::scene::primitive::{bar, cuboid, lathe};
-use crate::scene::{Assembly, Joint, NodeId};
+use crate::scene::{Assembly, NodeId};
 
 /// The frame of the cups' rim.
 const RIM: &str = "Rim";
@@ -45,7 +46,7 @@ pub(super) fn build(assembly: &mut Assembly, node: NodeId, own: &Parameters) {
 }
 
 /// A cup of 40 mm with two and a half folds, its rim at z = 0.
-fn bellows(mesh: &mut crate::scene::Mesh) {
+fn bellows(mesh: &mut crate::mesh::Mesh) {
     let (lip, fold, stem) = (0.020, 0.017, 0.012);
     let outside = [
         [lip - 0.001, 0.0],

@@ -11,11 +11,13 @@ mod gripper;
 mod motor;
 mod part;
 mod pusher;
+mod sensor;
 mod servo;
 
 use super::{Assembly, Colour, NodeId, Scene};
 use crate::kinematics::{DPose3, DQuat, DVec3};
 use crate::plant::{Instance, ParameterValue, Plant, Pose, Task};
+use crate::prototype::structure::Structure;
 
 const STEEL: Colour = [150, 156, 162];
 const BRIGHT: Colour = [205, 209, 213];
@@ -63,6 +65,9 @@ fn carrier_of(task: &Task) -> Option<&str> {
 }
 
 fn build(assembly: &mut Assembly, node: NodeId, instance: &Instance) {
+    if let Some(structure) = &instance.structure {
+        return hang(assembly, node, structure);
+    }
     for task in &instance.tasks {
         let own = &task.parameters;
         match task.kind.name {
@@ -74,9 +79,29 @@ fn build(assembly: &mut Assembly, node: NodeId, instance: &Instance) {
             "kinetwin.LoadingBay" => bay::build(assembly, node, bay::Way::In),
             "kinetwin.UnloadingBay" => bay::build(assembly, node, bay::Way::Out),
             "kinetwin.EncoderMotor" => motor::build(assembly, node),
+            "kinetwin.ProximitySensor" => sensor::ray(assembly, node),
+            "kinetwin.BoxSensor" | "kinetwin.VisionSensor" => sensor::window(assembly, node, own),
             "kinetwin.ServoAxis" => servo::build(assembly, node, own),
             // A kind without a shape of its own: its frame is all there is.
             _ => {}
+        }
+    }
+}
+
+/// Adds the shape that a prototype's files give.
+fn hang(assembly: &mut Assembly, node: NodeId, structure: &Structure) {
+    let mut frames: Vec<NodeId> = Vec::with_capacity(structure.frames.len());
+    for frame in &structure.frames {
+        let parent = frame.parent.map_or(node, |parent| frames[parent]);
+        frames.push(assembly.frame(parent, &frame.name, frame.rest, frame.joint));
+    }
+    for body in &structure.bodies {
+        let frame = body.frame.map_or(node, |frame| frames[frame]);
+        let mesh = assembly.shared(&body.mesh);
+        if body.is_solid {
+            assembly.solid(frame, mesh, body.place, body.colour);
+        } else {
+            assembly.shown(frame, mesh, body.place, body.colour);
         }
     }
 }

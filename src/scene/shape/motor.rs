@@ -2,9 +2,10 @@
 
 use super::part::motor;
 use super::{BRIGHT, DRIVE, RUBBER};
+use crate::kinematics::Joint;
 use crate::kinematics::{DPose3, DVec3};
-use crate::scene::primitive::{along, bar, cuboid, lathe};
-use crate::scene::{Assembly, Joint, NodeId};
+use crate::mesh::primitive::{along, bar, cuboid, lathe};
+use crate::scene::{Assembly, NodeId};
 
 /// The frame that turns.
 const SHAFT: &str = "Shaft";

@@ -2,8 +2,8 @@
 
 use super::{BRIGHT, DRIVE, FRAME, LAMP, RUBBER, STEEL, at};
 use crate::kinematics::{DPose3, DQuat, DVec2, DVec3};
-use crate::scene::outline::slotted;
-use crate::scene::primitive::{along, bar, cuboid, extrude, lathe};
+use crate::mesh::outline::slotted;
+use crate::mesh::primitive::{along, bar, cuboid, extrude, lathe};
 use crate::scene::{Assembly, NodeId};
 
 /// Side of the profiles that machine frames are made of, m.
@@ -99,7 +99,7 @@ pub(super) fn geared_motor(assembly: &mut Assembly, node: NodeId, place: DPose3)
 }
 
 /// Adds a motor with cooling ribs of `radius` and `length` along the z of `base`.
-pub(super) fn motor(mesh: &mut crate::scene::Mesh, base: &DPose3, radius: f64, length: f64) {
+pub(super) fn motor(mesh: &mut crate::mesh::Mesh, base: &DPose3, radius: f64, length: f64) {
     const RIBS: usize = 36;
     let outline: Vec<DVec2> = (0..RIBS * 4)
         .map(|index| {

@@ -3,10 +3,11 @@
 use super::conveyor::barriers;
 use super::part::leg;
 use super::{BRIGHT, DRIVE, PAINT, at};
+use crate::kinematics::Joint;
 use crate::kinematics::{DPose3, DVec3};
+use crate::mesh::primitive::{bar, cuboid};
 use crate::plant::Parameters;
-use crate::scene::primitive::{bar, cuboid};
-use crate::scene::{Assembly, Joint, NodeId};
+use crate::scene::{Assembly, NodeId};
 
 /// The frame that slides, as the reference's example calls it.
 const SLIDE: &str = "Spintore";
@@ -19,7 +20,7 @@ pub(super) fn build(assembly: &mut Assembly, node: NodeId, own: &Parameters, hei
     let plate = assembly.mesh(&format!("plate {size:?}"), |mesh| {
         cuboid(mesh, size, DVec3::new(-size.x / 2.0, 0.0, size.z / 2.0));
     });
-    assembly.solid(slide, plate, DPose3::IDENTITY, PAINT);
+    assembly.bearing(slide, plate, DPose3::IDENTITY, PAINT);
     let (reach, middle) = (stroke + 0.05, size.z * 0.5);
     let spread = size.y * 0.3;
     let rods = assembly.mesh(&format!("rods {stroke:.6} {size:?}"), |mesh| {

@@ -2,10 +2,11 @@
 
 use super::part::motor;
 use super::{BRIGHT, DRIVE, FRAME, PAINT};
+use crate::kinematics::Joint;
 use crate::kinematics::{DPose3, DVec3};
+use crate::mesh::primitive::{along, bar, cuboid, lathe};
 use crate::plant::Parameters;
-use crate::scene::primitive::{along, bar, cuboid, lathe};
-use crate::scene::{Assembly, Joint, NodeId};
+use crate::scene::{Assembly, NodeId};
 
 /// Builds one.
 pub(super) fn build(assembly: &mut Assembly, node: NodeId, own: &Parameters) {

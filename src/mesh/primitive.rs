@@ -7,13 +7,13 @@ use super::outline::{fill, rectangle};
 use crate::kinematics::{DPose3, DVec2, DVec3};
 
 /// Adds a cuboid of `size` about `centre`.
-pub(super) fn cuboid(mesh: &mut Mesh, size: DVec3, centre: DVec3) {
+pub(crate) fn cuboid(mesh: &mut Mesh, size: DVec3, centre: DVec3) {
     let base = DPose3::from_translation(centre - DVec3::new(0.0, 0.0, size.z / 2.0));
     extrude(mesh, &rectangle(size.x, size.y), size.z, &base);
 }
 
 /// Adds a prism: `outline` (anticlockwise) in the x, y plane of `base`, raised by `height` along its z.
-pub(super) fn extrude(mesh: &mut Mesh, outline: &[DVec2], height: f64, base: &DPose3) {
+pub(crate) fn extrude(mesh: &mut Mesh, outline: &[DVec2], height: f64, base: &DPose3) {
     let count = outline.len() as u32;
     let mut ring = |z: f64| {
         let first = mesh.vertices.len() as u32;
@@ -32,7 +32,7 @@ pub(super) fn extrude(mesh: &mut Mesh, outline: &[DVec2], height: f64, base: &DP
 
 /// Adds a tube of any section: what lies between `outer` and `inner` (both anticlockwise, with as many corners), raised by
 /// `height` along the z of `base`.
-pub(super) fn tube(mesh: &mut Mesh, outer: &[DVec2], inner: &[DVec2], height: f64, base: &DPose3) {
+pub(crate) fn tube(mesh: &mut Mesh, outer: &[DVec2], inner: &[DVec2], height: f64, base: &DPose3) {
     let count = outer.len() as u32;
     let mut ring = |outline: &[DVec2], z: f64| {
         let first = mesh.vertices.len() as u32;
@@ -58,7 +58,7 @@ fn wall(mesh: &mut Mesh, low: u32, high: u32, count: u32) {
 
 /// Adds what `profile` sweeps when it is turned about the z axis of `base`: pairs of radius and height, from the bottom to the
 /// top on the outside. It begins and ends on the axis (radius 0), or is closed by a disc there.
-pub(super) fn lathe(mesh: &mut Mesh, profile: &[[f64; 2]], segments: usize, base: &DPose3) {
+pub(crate) fn lathe(mesh: &mut Mesh, profile: &[[f64; 2]], segments: usize, base: &DPose3) {
     let mut before: Option<Ring> = None;
     let on_axis = |z: f64| [[0.0, z]];
     let first = profile.first().filter(|[radius, _]| *radius > 0.0).map(|[_, z]| on_axis(*z));
@@ -107,19 +107,19 @@ impl Ring {
 }
 
 /// Adds a straight round bar from `from` to `to`.
-pub(super) fn bar(mesh: &mut Mesh, from: DVec3, to: DVec3, radius: f64, segments: usize) {
+pub(crate) fn bar(mesh: &mut Mesh, from: DVec3, to: DVec3, radius: f64, segments: usize) {
     lathe(mesh, &[[radius, 0.0], [radius, (to - from).length()]], segments, &along(from, to));
 }
 
 /// The frame at `from` whose z points to `to`.
-pub(super) fn along(from: DVec3, to: DVec3) -> DPose3 {
+pub(crate) fn along(from: DVec3, to: DVec3) -> DPose3 {
     let way = (to - from).normalize_or(DVec3::Z);
     DPose3::from_parts(from, crate::kinematics::DQuat::from_rotation_arc(DVec3::Z, way))
 }
 
 /// Adds a ring sector about the z axis through `pivot`: radii `radii`, heights `heights`, from the angle `from` by `swept`
 /// (positive: to the left).
-pub(super) fn sector(
+pub(crate) fn sector(
     mesh: &mut Mesh,
     pivot: DVec2,
     radii: [f64; 2],

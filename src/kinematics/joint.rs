@@ -1,6 +1,6 @@
 //! How a frame can move in its parent.
 
-use crate::kinematics::{DPose3, DQuat, DVec3};
+use super::{DPose3, DQuat, DVec3};
 
 /// What a joint lets a frame do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -20,7 +20,7 @@ impl Mesh {
     }
 
     /// Adds a vertex.
-    pub(super) fn vertex(&mut self, place: DVec3) -> u32 {
+    pub(crate) fn vertex(&mut self, place: DVec3) -> u32 {
         self.vertices.push(place.to_array().map(|x| x as f32));
         self.vertices.len() as u32 - 1
     }

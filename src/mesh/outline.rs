@@ -1,10 +1,10 @@
 //! Plane outlines and how they are filled with triangles.
 
-use crate::kinematics::DVec2;
+use crate::kinematics::{DVec2, DVec3};
 
 /// The triangles of the simple polygon `corners`, which runs anticlockwise, by ear clipping (Meisters 1975). Outlines here have
 /// some tens of corners: that it takes the cube of them does not show.
-pub(super) fn fill(corners: &[DVec2]) -> Vec<[u32; 3]> {
+pub(crate) fn fill(corners: &[DVec2]) -> Vec<[u32; 3]> {
     let mut left: Vec<u32> = (0..corners.len() as u32).collect();
     let mut triangles = Vec::with_capacity(corners.len().saturating_sub(2));
     while left.len() > 3 {
@@ -19,6 +19,21 @@ pub(super) fn fill(corners: &[DVec2]) -> Vec<[u32; 3]> {
         triangles.push([a, b, c]);
     }
     triangles
+}
+
+/// The triangles of a polygon in space, which is nearly plane and runs anticlockwise as seen from outside.
+pub(crate) fn fill_in_space(corners: &[DVec3]) -> Vec<[u32; 3]> {
+    if corners.len() == 3 {
+        return vec![[0, 1, 2]];
+    }
+    // Its normal by Newell's method: right for any simple polygon, plane or not quite.
+    let next = corners.iter().cycle().skip(1);
+    let normal: DVec3 = corners.iter().zip(next).map(|(a, b)| a.cross(*b)).sum();
+    let normal = normal.normalize_or(DVec3::Z);
+    let across = normal.any_orthonormal_vector();
+    let up = normal.cross(across);
+    let flat: Vec<DVec2> = corners.iter().map(|corner| DVec2::new(corner.dot(across), corner.dot(up))).collect();
+    fill(&flat)
 }
 
 fn is_ear(corners: &[DVec2], left: &[u32], index: usize) -> bool {
@@ -36,20 +51,20 @@ fn is_ear(corners: &[DVec2], left: &[u32], index: usize) -> bool {
 
 /// A circle of `radius` in `segments`, anticlockwise from the x axis.
 #[cfg(test)]
-pub(super) fn circle(radius: f64, segments: usize) -> Vec<DVec2> {
+pub(crate) fn circle(radius: f64, segments: usize) -> Vec<DVec2> {
     let angle = |index: usize| std::f64::consts::TAU * index as f64 / segments as f64;
     (0..segments).map(|index| DVec2::from_angle(angle(index)) * radius).collect()
 }
 
 /// A rectangle about the origin.
-pub(super) fn rectangle(width: f64, height: f64) -> Vec<DVec2> {
+pub(crate) fn rectangle(width: f64, height: f64) -> Vec<DVec2> {
     let (x, y) = (width / 2.0, height / 2.0);
     vec![DVec2::new(-x, -y), DVec2::new(x, -y), DVec2::new(x, y), DVec2::new(-x, y)]
 }
 
 /// A belt's path about two pulleys of `radius` whose centres are `reach` apart along x, about the origin: half circles of
 /// `segments` at its ends.
-pub(super) fn stadium(reach: f64, radius: f64, segments: usize) -> Vec<DVec2> {
+pub(crate) fn stadium(reach: f64, radius: f64, segments: usize) -> Vec<DVec2> {
     let half = |centre: f64, from: f64| {
         (0..=segments).map(move |index| {
             let angle = from + std::f64::consts::PI * index as f64 / segments as f64;
@@ -61,7 +76,7 @@ pub(super) fn stadium(reach: f64, radius: f64, segments: usize) -> Vec<DVec2> {
 }
 
 /// A square profile of `side` with a slot of `slot` in each side, `depth` deep: the extrusion that machine frames are made of.
-pub(super) fn slotted(side: f64, slot: f64, depth: f64) -> Vec<DVec2> {
+pub(crate) fn slotted(side: f64, slot: f64, depth: f64) -> Vec<DVec2> {
     let (h, s) = (side / 2.0, slot / 2.0);
     let one =
         [DVec2::new(h, -h), DVec2::new(h, -s), DVec2::new(h - depth, -s), DVec2::new(h - depth, s), DVec2::new(h, s)];
