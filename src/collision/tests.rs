@@ -77,7 +77,7 @@ fn first(at: DVec3, is_wedge: bool) -> (Option<(usize, f64)>, u64) {
 fn a_slider_runs_into_a_wall_when_it_gets_there() {
     let (found, asked) = first(DVec3::new(1.0, 0.0, 0.0), false);
     let (step, depth) = found.expect("a collision");
-    assert!((step, (depth - 1e-3).abs() < 1e-9) == (801, true), "step {step}, depth {depth}");
+    assert!((step, (depth - 1e-3).abs() < 1e-8) == (801, true), "step {step}, depth {depth}");
     // Through 400 steps of it the pair is asked at each; the way there and away costs a few looks.
     assert!(asked < 600, "{asked} pairs asked");
     assert_eq!(first(DVec3::new(1.0, 0.2001, 0.0), false).0, None);

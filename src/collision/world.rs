@@ -170,6 +170,8 @@ impl World {
             }
         }
         world.touching.clear();
+        // Who may touch is near nobody any more.
+        (0..world.movers.len() as u32).for_each(|mover| world.look_up(mover, DVec3::ZERO));
         world
     }
 

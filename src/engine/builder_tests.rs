@@ -14,7 +14,7 @@ const META: &str = r#"<prototype uuid="4ff5367a-4b69-48fb-9b2a-71e77d075c71" nam
   <property name="generator" value="builder.js" type="string"/>
   <parameter name="width" type="double" value="800" unit="mm">
     <property name="affectGeometry" value="true" type="boolean"/>
-    <property name="constraints" value=">0, <3000" type="string"/>
+    <property name="constraints" value=">0, &lt;3000" type="string"/>
   </parameter>
   <parameter name="posts" type="double[]" value="0;0.4" unit="m">
     <property name="affectGeometry" value="true" type="boolean"/>
@@ -101,7 +101,8 @@ fn a_script_that_is_wrong_is_told_with_its_line_and_nothing_is_loaded() {
         let error = model(&[(file, &text.replacen(from, to, 1))]).err().unwrap_or_else(|| panic!("{to} was taken"));
         assert!(error.contains(&format!("m/prototypes/Gate/{file}:{expect}")), "{to}: {error}");
     };
-    check("builder.js", "for (const x of posts)", "for (;;)", "1:1: it does not end");
+    let endless = model(&[("builder.js", "function build() { for (;;) {} }")]).expect_err("no shape");
+    assert!(endless.contains("it does not end"), "{endless}");
     check("builder.js", "radius: 0.02", "radius: -1", "4:1: radius is -1: expected more than 0");
     check("builder.js", "radius: 0.02", "radius: 'x'", "4:1: radius is x: expected a finite number");
     check("builder.js", "radius: 0.02", "radius: 0/0", "4:1: radius is NaN: expected a finite number");
@@ -110,7 +111,7 @@ fn a_script_that_is_wrong_is_told_with_its_line_and_nothing_is_loaded() {
     check("builder.js", "axis: [0, 0, 1], ", "", "5:1: a joint without an axis");
     check("builder.js", "frame: slide, colour", "frame: 'Slide', colour", "6:1: there is no frame Slide");
     check("builder.js", "[0.1, 0], [0, 0.1]", "[0.1, 0], [0.2, 0]", "1:1: extrude: the outline has no area");
-    check("builder.js", "width / 2, 0", "length / 2, 0", "6:1: 'length' is not defined");
+    check("builder.js", "width / 2, 0", "length / 2, 0", "6:1: length is not defined");
     check("builder.js", "function build", "function construct", "1:1: there is no function build");
     check("customizer.js", "rise:", "raise:", "1:1: customize gave \"raise\"");
     check("customizer.js", "parameters.width", "parameters.width.mm.x", "2:1: ");

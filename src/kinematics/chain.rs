@@ -157,7 +157,10 @@ impl Chain {
         let way = goal.translation - now.translation;
         let turn = (goal.rotation * now.rotation.inverse()).normalize();
         let turn = if turn.w < 0.0 { -turn } else { turn };
-        let turn = turn.to_scaled_axis();
+        // By the sine's side: by the cosine a small angle drowns in rounding.
+        let sine = turn.xyz();
+        let length = sine.length();
+        let turn = if length > 0.0 { sine * (2.0 * length.atan2(turn.w) / length) } else { DVec3::ZERO };
         Vector6::new(way.x, way.y, way.z, turn.x, turn.y, turn.z)
     }
 
@@ -242,7 +245,7 @@ mod tests {
                 there[index] += SMALL;
                 let slope = (planar().forward(&there).translation - planar().forward(&[a, b]).translation) / SMALL;
                 prop_assert!((slope - column[0]).length() < 1e-6);
-                prop_assert_eq!(column[1], DVec3::Z);
+                prop_assert!((column[1] - DVec3::Z).length() < 1e-12);
             }
         }
     }

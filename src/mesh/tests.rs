@@ -124,9 +124,13 @@ fn faces_of_many_corners_are_filled() {
 fn what_is_no_mesh_is_told_with_its_line() {
     refused("part.stl", b"<html>", "part.stl: this is no STL");
     refused("part.stl", &binary()[..200], "part.stl: a binary STL of 200 bytes that says it has 4 triangles");
-    refused("part.stl", ascii().replacen("1e0", "NaN", 1).as_bytes(), "part.stl:6: the coordinate \"NaN\"");
-    refused("part.stl", ascii().replacen("1e0", "l", 1).as_bytes(), "part.stl:6: \"l\" is no number");
-    refused("part.stl", ascii().replacen("    endloop\n  endfacet\nendsolid", "", 1).as_bytes(), "ends within a facet");
+    refused("part.stl", ascii().replacen("1e0", "NaN", 1).as_bytes(), "part.stl:5: the coordinate \"NaN\"");
+    refused("part.stl", ascii().replacen("1e0", "l", 1).as_bytes(), "part.stl:5: \"l\" is no number");
+    refused(
+        "part.stl",
+        ascii().replacen("    endloop\n  endfacet\nendsolid part\n", "", 1).as_bytes(),
+        "ends within a facet",
+    );
     refused("part.obj", obj().replacen("//1", "1//1", 1).as_bytes(), "part.obj:8: \"11//1\" names no vertex");
     refused("part.obj", b"v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "part.obj:4: triangle 1 has no area");
     refused("part.obj", b"v 0 0 inf\n", "part.obj:1: the coordinate \"inf\"");
