@@ -315,7 +315,7 @@ mod tests {
     #[test]
     fn parts_queue_behind_one_that_stands() {
         let lane = lane(0.0, &[]);
-        let mut riders = [rider(0, 1.0), rider(1, 1.9), rider(2, 1.3)];
+        let mut riders = [rider(0, 0.8), rider(1, 1.9), rider(2, 1.3)];
         let mut queued = 0;
         for step in 0..200 {
             let from = 0.02 * f64::from(step);

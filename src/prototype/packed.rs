@@ -69,7 +69,7 @@ fn take(archive: &[u8], entry: &str) -> Result<Option<Vec<u8>>, String> {
     let mut archive = ZipArchive::new(Cursor::new(archive)).map_err(said)?;
     let mut file = match archive.by_name(entry) {
         Ok(file) => file,
-        Err(ZipError::FileNotFound { .. }) => return Ok(None),
+        Err(ZipError::FileNotFound) => return Ok(None),
         Err(error) => return Err(said(error)),
     };
     let mut bytes = Vec::new();
