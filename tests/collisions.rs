@@ -16,11 +16,12 @@ fn rig_with_a_table(folder: &Path, height: f64) -> Options {
         value.map_or(0.0, |value| value.parse::<f64>().expect("a number"))
     };
     let (x, y, z) = (of("x") + 0.2, of("y") + 0.4, of("z") + height);
-    let plant = format!(
-        "<plant name=\"rig\" base=\"{}\">\n  <instance name=\"Table\" prototype=\"StraightConveyor\">\n    \
-         <pose x=\"{x}\" y=\"{y}\" z=\"{z}\"/>\n  </instance>\n</plant>\n",
-        rig.display()
+    let table = format!(
+        "  <instance name=\"Table\" prototype=\"StraightConveyor\">\n    <pose x=\"{x}\" y=\"{y}\" z=\"{z}\"/>\n  \
+         </instance>\n</plant>"
     );
+    // With the table it has other signals than its map says.
+    let plant = text.replace("</plant>", &table).replace(" signals-map=\"signals-maps/rig.xml\"", "");
     let path = folder.join("plant.xml");
     fs::write(&path, plant).expect("a plant");
     Options {
