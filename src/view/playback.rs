@@ -4,8 +4,8 @@
 //! changed from picture to picture with a whole one now and then ([`Movie`]). So any instant is there at once, and backwards
 //! costs what forwards does.
 //!
-//! What a machine measured is shown as measured: where a recording's reports say where a joint is, the picture has it there
-//! (of a trace whose source is a plant).
+//! Of a trace whose source is a plant the signals are shown as the machine reported them; the bodies follow the model under the
+//! recorded commands.
 
 mod movie;
 
