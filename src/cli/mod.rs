@@ -11,6 +11,8 @@ mod credentials;
 mod diagnose;
 mod exam;
 mod experiment;
+#[cfg(test)]
+mod foxglove_tests;
 mod info;
 mod locate;
 mod log;

@@ -3,13 +3,19 @@
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 
 use super::output::{Output, write_whole};
 use super::replay::open;
 use super::{Answer, Failure, words};
-use crate::run::model;
+use crate::engine::Engine;
+use crate::replay::foxglove::Pictures;
+use crate::replay::{self, Survey, Tolerances};
+use crate::run::{Options, model};
+use crate::scene::Scene;
 use crate::signal_map::{Direction, SignalMap};
 use crate::trace::export::{self, Exported};
 use crate::trace::import::{self, Clock, Imported, Mapping, Settings, Shape, Signals, Table, TimeUnit};
@@ -135,6 +141,12 @@ pub struct ExportArguments {
     /// The plant that the signals belong to: their types and units stand in the channels' metadata
     #[arg(long, value_name = "MODEL", conflicts_with = "csv")]
     pub model: Option<String>,
+    /// Puts what the plant looks like beside the signals, as Foxglove draws it: frames, devices, parts
+    ///
+    /// The trace is replayed through the model; 30 pictures a second on /tf (foxglove.FrameTransforms), /scene and /parts
+    /// (foxglove.SceneUpdate), with their schemas.
+    #[arg(long, requires_all = ["mcap", "model"])]
+    pub scene: bool,
     /// Replaces the file to write if there is one; without it, that is refused
     #[arg(long)]
     pub force: bool,
@@ -146,7 +158,7 @@ pub struct ExportArguments {
 const EXPORT_HELP: &str = "\
 Examples:
   kinetwin trace export session.cps.jsonl --csv session.csv
-  kinetwin trace export session.cps.jsonl.zst --mcap session.mcap --model models/rig
+  kinetwin trace export session.cps.jsonl.zst --mcap session.mcap --model models/rig --scene
 
 Exit codes:
   0  the file was written
@@ -323,9 +335,35 @@ fn export_csv(arguments: &ExportArguments, mut file: Output) -> Result<(Output, 
 }
 
 fn export_mcap(arguments: &ExportArguments, file: Output) -> Result<(Output, Exported), Failure> {
-    let map = match &arguments.model {
-        Some(model) => Some(model::load(model)?.signal_map),
+    let plant = match &arguments.model {
+        Some(model) => Some(model::load(model)?),
         None => None,
     };
-    export::mcap(open(&arguments.trace)?, map.as_deref(), file).map_err(|error| Failure::of(&error))
+    let map = plant.as_ref().map(|plant| &*plant.signal_map);
+    let Some(plant) = plant.as_ref().filter(|_| arguments.scene) else {
+        return export::mcap(open(&arguments.trace)?, map, file).map_err(|error| Failure::of(&error));
+    };
+    // Replayed before anything is written: a trace that the model cannot take leaves no file.
+    let survey = Survey::of(&plant.signal_map, open(&arguments.trace)?).map_err(|error| Failure::of(&error))?;
+    let header = survey.header();
+    let step = header.step_ns.map_or(Options::STEP, Duration::from_nanos);
+    let mut engine = model::engine(plant, step, header.seed.unwrap_or_default())?;
+    engine.show(plant, Arc::new(Scene::of(plant)));
+    let mut pictures = 0;
+    let mut refused = None;
+    let replayed = open(&arguments.trace)?;
+    let written = export::mcap_with(open(&arguments.trace)?, map, file, |writer| {
+        let mut shown = Pictures::new(writer)?;
+        let mut failed = None;
+        let watch = |engine: &mut Engine| failed = failed.take().or_else(|| shown.take(engine).err());
+        let tolerances = Tolerances::default();
+        refused = replay::watched(&mut engine, &plant.signal_map, &survey, replayed, &tolerances, watch).err();
+        pictures = shown.written;
+        failed.map_or(Ok(()), |error| Err(error.into()))
+    });
+    let (file, exported) = written.map_err(|error| Failure::of(&error))?;
+    match refused {
+        Some(error) => Err(Failure::of(&error)),
+        None => Ok((file, Exported { rows: exported.rows + pictures, ..exported })),
+    }
 }

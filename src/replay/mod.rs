@@ -18,6 +18,7 @@
 
 mod commands;
 mod edges;
+pub mod foxglove;
 mod levels;
 mod report;
 mod survey;

@@ -16,9 +16,19 @@ use super::{ExportError, Exported};
 /// Writes a trace as an MCAP file and gives the writer back. Log and publish times are the trace's, in nanoseconds. A
 /// channel's metadata hold its sender (`from`), and what the model's map says of it (`type`, `unit`).
 pub fn mcap<R: BufRead, W: Write>(
+    reader: Reader<R>,
+    map: Option<&SignalMap>,
+    out: W,
+) -> Result<(W, Exported), ExportError> {
+    mcap_with(reader, map, out, |_| Ok(()))
+}
+
+/// Writes a trace as [`mcap`] does; `more` adds channels of its own behind the signals.
+pub fn mcap_with<R: BufRead, W: Write>(
     mut reader: Reader<R>,
     map: Option<&SignalMap>,
     out: W,
+    more: impl FnOnce(&mut Writer<NoSeek<W>>) -> Result<(), ExportError>,
 ) -> Result<(W, Exported), ExportError> {
     let options = WriteOptions::new().disable_seeking(true).library(concat!("kinetwin ", env!("CARGO_PKG_VERSION")));
     let mut channels = Channels { writer: options.create(NoSeek::new(out))?, map, known: HashMap::new() };
@@ -43,6 +53,7 @@ pub fn mcap<R: BufRead, W: Write>(
             exported.rows += 1;
         }
     }
+    more(&mut channels.writer)?;
     channels.writer.finish()?;
     let mut out = channels.writer.into_inner().into_inner();
     out.flush().map_err(ExportError::Write)?;

@@ -11,7 +11,7 @@ use std::io;
 use serde::Serialize;
 
 pub use self::csv::csv;
-pub use self::mcap::mcap;
+pub use self::mcap::{mcap, mcap_with};
 
 use super::TraceError;
 
