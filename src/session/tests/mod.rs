@@ -1,6 +1,7 @@
 //! Every rule of the protocol as a plain test, named by the rule; and two peers under one virtual clock.
 
 mod connecting;
+mod dice;
 mod frames;
 mod ours;
 mod pair;

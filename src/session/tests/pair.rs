@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::dice::Dice;
 use super::*;
 use crate::value::Value;
 
@@ -62,6 +63,18 @@ pub(super) struct Pair {
     sequence: i64,
     echo: i64,
     pub(super) ended: bool,
+    /// Which of several things that are due happens first; without it, always in the order of [`Due`].
+    pub(super) order: Option<Dice>,
+}
+
+/// What happens next.
+#[derive(Clone, Copy, Debug)]
+enum Due {
+    Dialled,
+    AtServer,
+    AtClient,
+    ClientTimeout,
+    ServerTimeout,
 }
 
 impl Pair {
@@ -80,6 +93,7 @@ impl Pair {
             sequence: 0,
             echo: 0,
             ended: false,
+            order: None,
         }
     }
 
@@ -150,34 +164,61 @@ impl Pair {
         queue.push_back((arrival, frame));
     }
 
+    /// All that is to come, each with its instant.
+    fn agenda(&self) -> [(Option<Instant>, Due); 5] {
+        let arrival = |queue: &VecDeque<(Instant, Frame)>| queue.front().map(|(arrival, _)| *arrival);
+        [
+            (self.dialled, Due::Dialled),
+            (arrival(&self.to_server), Due::AtServer),
+            (arrival(&self.to_client), Due::AtClient),
+            (self.client.timeout(), Due::ClientTimeout),
+            (self.server.as_ref().and_then(Server::timeout), Due::ServerTimeout),
+        ]
+    }
+
     fn next_event(&self) -> Option<Instant> {
-        let arrivals = [&self.to_server, &self.to_client].map(|queue| queue.front().map(|(arrival, _)| *arrival));
-        let timeouts = [self.client.timeout(), self.server.as_ref().and_then(Server::timeout), self.dialled];
-        arrivals.into_iter().chain(timeouts).flatten().min()
+        self.agenda().into_iter().filter_map(|(at, _)| at).min()
     }
 
     fn happen(&mut self) {
         let now = self.now;
-        if self.dialled.is_some_and(|at| at <= now) {
-            self.dialled = None;
-            if self.listening {
-                self.server = Some(Server::new(self.settings.clone(), map()));
-                self.connections.push(Connection::default());
-                self.client.handle(now, Input::Opened);
-            } else {
-                self.client.handle(now, Input::Closed);
+        let is_due = |(at, _): &(Option<Instant>, Due)| at.is_some_and(|at| at <= now);
+        let agenda = self.agenda();
+        let due = agenda.iter().filter(|item| is_due(item)).count() as u64;
+        let first = self.order.as_mut().map_or(0, |dice| dice.roll(due.max(1)));
+        let Some((_, next)) = agenda.into_iter().filter(is_due).nth(first as usize) else { return };
+        match next {
+            Due::Dialled => self.answer_dial(),
+            Due::AtServer => {
+                if let Some((_, frame)) = self.to_server.pop_front()
+                    && let Some(server) = &mut self.server
+                {
+                    *server.settings_mut() = self.settings.clone();
+                    server.handle(now, frame.input());
+                }
             }
-        } else if let Some((_, frame)) = self.to_server.pop_front_if(|(at, _)| *at <= now) {
-            if let Some(server) = &mut self.server {
-                *server.settings_mut() = self.settings.clone();
-                server.handle(now, frame.input());
+            Due::AtClient => {
+                if let Some((_, frame)) = self.to_client.pop_front() {
+                    self.client.handle(now, frame.input());
+                }
             }
-        } else if let Some((_, frame)) = self.to_client.pop_front_if(|(at, _)| *at <= now) {
-            self.client.handle(now, frame.input());
-        } else if self.client.timeout().is_some_and(|at| at <= now) {
-            self.client.handle(now, Input::Timeout);
-        } else if let Some(server) = &mut self.server {
-            server.handle(now, Input::Timeout);
+            Due::ClientTimeout => self.client.handle(now, Input::Timeout),
+            Due::ServerTimeout => {
+                if let Some(server) = &mut self.server {
+                    server.handle(now, Input::Timeout);
+                }
+            }
+        }
+    }
+
+    fn answer_dial(&mut self) {
+        self.dialled = None;
+        if self.listening {
+            self.server = Some(Server::new(self.settings.clone(), map()));
+            self.connections.push(Connection::default());
+            self.client.handle(self.now, Input::Opened);
+        } else {
+            self.client.handle(self.now, Input::Closed);
         }
     }
 
