@@ -1,66 +1,28 @@
-//! What a value costs on its way through codec and session: 400 values in a message, as a plant of 200 function blocks has.
+//! What a value costs on its way through codec and session: 400 values in a message, as a plant of 200 function blocks has,
+//! beside serde_json and sonic-rs doing the same.
+//!
+//!     cargo bench --bench wire
+//!
+//! Criterion prints the times; the last lines are the ratios of one run, which is what can be compared between machines.
+
+#[path = "wire/json.rs"]
+mod json;
+#[path = "wire/values.rs"]
+mod values;
 
 use std::hint::black_box;
-use std::sync::Arc;
+use std::time::{Duration, Instant as Clock};
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use kinetwin::session::{Client, ClientSettings, Input, Server, ServerSettings};
-use kinetwin::signal_map::{Direction, Kind, RateClass, RegisterId, Signal, SignalMap};
+use criterion::{BatchSize, Criterion, criterion_group};
+use kinetwin::session::Input;
 use kinetwin::time::Instant;
-use kinetwin::value::{ElementaryType, SignalType, Unit, Value};
 use kinetwin::wire::{Message, SendValueText};
 
-const VALUES: usize = 400;
-
-fn map() -> Arc<SignalMap> {
-    let signal = |n: usize| {
-        let element = [ElementaryType::Real, ElementaryType::Bool, ElementaryType::Dint][n % 3];
-        Signal {
-            name: format!("Conveyor{}.property{}", n / 8, n % 8),
-            ty: SignalType::scalar(element),
-            direction: Direction::Command,
-            kind: Kind::Level,
-            rate: RateClass::HighFrequency,
-            unit: Unit::ONE,
-            min: None,
-            max: None,
-            instance: format!("Conveyor{}", n / 8),
-            task: "task".to_owned(),
-            property: format!("property{}", n % 8),
-        }
-    };
-    Arc::new(SignalMap::new("bench", (0..VALUES).map(signal).collect()).expect("names that differ"))
-}
-
-fn values(map: &SignalMap) -> Vec<(RegisterId, Value)> {
-    let numbers = (1..).map(|n| f64::from(n) * 0.137);
-    let signals = map.directed(Direction::Command).zip(numbers);
-    signals.map(|((register, signal), number)| (register, Value::from_f64(signal.ty.element, number))).collect()
-}
-
-/// A client and a server between which a session stands.
-fn session(map: &Arc<SignalMap>) -> (Client, Server) {
-    let mut client = Client::new(ClientSettings::new("bench"), Arc::clone(map));
-    let mut server = Server::new(ServerSettings::new("bench"), Arc::clone(map));
-    client.handle(Instant::ZERO, Input::Opened);
-    while let Some(output) = client.poll() {
-        if let kinetwin::session::Output::Transmit(text) = output {
-            server.handle(Instant::ZERO, Input::Text(&text));
-        }
-    }
-    while let Some(output) = server.poll() {
-        if let kinetwin::session::Output::Transmit(text) = output {
-            client.handle(Instant::ZERO, Input::Text(&text));
-        }
-    }
-    while client.poll().is_some() {}
-    assert!(client.is_established() && server.is_established());
-    (client, server)
-}
+use values::VALUES;
 
 fn wire(c: &mut Criterion) {
-    let map = map();
-    let values = values(&map);
+    let map = values::map();
+    let values = values::values(&map);
     let names: Vec<&str> = map.signals().iter().map(|signal| signal.name.as_str()).collect();
     let encode = || {
         let mut text = SendValueText::with_capacity(VALUES);
@@ -73,8 +35,7 @@ fn wire(c: &mut Criterion) {
     c.bench_function("encode 400 values", |b| b.iter(encode));
     c.bench_function("decode 400 entries", |b| b.iter(|| Message::decode(black_box(&text)).expect("a message")));
 
-    let (client, server) = session(&map);
-    let (mut client, mut server) = (client, server);
+    let (mut client, mut server) = values::session(&map);
     c.bench_function("session: 400 values from frame to registers", |b| {
         b.iter_batched(
             || (),
@@ -93,5 +54,71 @@ fn wire(c: &mut Criterion) {
     });
 }
 
+/// What is measured, by its name.
+type Way<'a> = (&'static str, Box<dyn FnMut() + 'a>);
+
+/// The time of one call, the least of several rounds.
+fn least(mut call: impl FnMut()) -> Duration {
+    const CALLS: u32 = 200;
+    let start = Clock::now();
+    (0..CALLS).for_each(|_| call());
+    start.elapsed() / CALLS
+}
+
+/// The codec and the JSON crates in turns: what each takes at least.
+fn ratios() {
+    const ROUNDS: usize = 60;
+    let map = values::map();
+    let values = values::values(&map);
+    let message = json::Message::of(&map, &values);
+    let begun: Vec<Box<str>> = map.signals().iter().map(|signal| SendValueText::begin(&signal.name)).collect();
+    let encode = || {
+        let mut text = SendValueText::with_capacity(VALUES);
+        for (begun, (_, value)) in begun.iter().zip(&values) {
+            text.push_begun(begun, value).expect("a value with a JSON form");
+        }
+        text.finish().expect("a message")
+    };
+    let text = encode();
+    let (mut client, mut server) = values::session(&map);
+    let mut ways: Vec<Way<'_>> = vec![
+        ("encode: kinetwin", Box::new(|| drop(black_box(encode())))),
+        ("encode: serde_json", Box::new(|| drop(black_box(serde_json::to_string(&message))))),
+        ("encode: sonic-rs", Box::new(|| drop(black_box(sonic_rs::to_string(&message))))),
+        ("decode: kinetwin", Box::new(|| drop(black_box(Message::decode(&text))))),
+        ("decode: serde_json", Box::new(|| drop(black_box(serde_json::from_str::<json::Message<'_>>(&text))))),
+        ("decode: sonic-rs", Box::new(|| drop(black_box(sonic_rs::from_str::<json::Message<'_>>(&text))))),
+        (
+            "session: registers to frame",
+            Box::new(|| {
+                server.send(Instant::ZERO, black_box(&values));
+                while server.poll().is_some() {}
+            }),
+        ),
+        (
+            "session: frame to registers",
+            Box::new(|| {
+                client.handle(Instant::ZERO, Input::Text(black_box(&text)));
+                while client.poll().is_some() {}
+            }),
+        ),
+    ];
+    let mut found = vec![Duration::MAX; ways.len()];
+    for _ in 0..ROUNDS {
+        ways.iter_mut().zip(&mut found).for_each(|((_, way), least_yet)| *least_yet = least(way).min(*least_yet));
+    }
+    println!("\n{VALUES} values, {} bytes, least of {ROUNDS} rounds", text.len());
+    ways.iter().zip(&found).for_each(|((name, _), time)| println!("{name:<40} {:>8.2} µs", time.as_secs_f64() * 1e6));
+    for (what, at) in [("encode", 0), ("decode", 3)] {
+        let ratio = found[at].as_secs_f64() / found[at + 1].min(found[at + 2]).as_secs_f64();
+        let met = if ratio <= 1.2 { "met   " } else { "MISSED" };
+        println!("{met} {ratio:.2} (at most 1.2): {what}, to the fastest JSON crate");
+    }
+}
+
 criterion_group!(benches, wire);
-criterion_main!(benches);
+
+fn main() {
+    benches();
+    ratios();
+}

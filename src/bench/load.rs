@@ -14,7 +14,7 @@ use tokio_tungstenite::tungstenite::{Message, Utf8Bytes, WebSocket, accept};
 use super::row::{Measured, Peer};
 use super::{BenchError, blocks, channel};
 use crate::adapter::Endpoint;
-use crate::pace::sharpen_sleep;
+use crate::pace::{Urgency, prefer, sharpen_sleep};
 use crate::plant::Plant;
 use crate::run::{self, Connect, Handle, Options, Summary};
 use crate::session::{Input, Output, Server, ServerEvent, ServerSettings};
@@ -123,6 +123,8 @@ pub struct Demand {
     pub duration: Duration,
     /// The engine's step.
     pub step: Duration,
+    /// Whether the run's threads and the measurement's own are scheduled in real time, where the system permits it.
+    pub realtime: bool,
 }
 
 /// What became of it.
@@ -172,6 +174,17 @@ struct Shared {
     over: AtomicBool,
     /// When a bare thread woke half a cycle late or more, nanoseconds since `begun`.
     late: Mutex<Vec<u64>>,
+    realtime: bool,
+}
+
+impl Shared {
+    /// Has the calling thread, one of the measurement's own, be scheduled as the run's are.
+    fn schedule(&self) {
+        if self.realtime {
+            // Where it is refused, it is refused to the run as well.
+            let _ = prefer(Urgency::Exchange);
+        }
+    }
 }
 
 const RING: usize = 4096;
@@ -204,6 +217,7 @@ fn session(plant: &Arc<Plant>, demand: Demand, loaded: bool) -> Result<Session, 
         connect: Some(Connect::Server(Endpoint::new(address.ip().to_string(), address.port()))),
         step: demand.step,
         high: Some(demand.cycle.max(Duration::from_millis(1))),
+        realtime: demand.realtime,
         ..Options::new("models/r001")
     };
     let handle = run::start_plant(&options, Arc::clone(plant))?;
@@ -217,6 +231,7 @@ fn session(plant: &Arc<Plant>, demand: Demand, loaded: bool) -> Result<Session, 
         begun: Instant::now(),
         over: AtomicBool::new(false),
         late: Mutex::new(Vec::new()),
+        realtime: demand.realtime,
     });
     let before = (memory(), thread_seconds("io"), thread_seconds("simulation"));
     // Without a load only a moment: what a step costs shows soon.
@@ -231,7 +246,9 @@ fn session(plant: &Arc<Plant>, demand: Demand, loaded: bool) -> Result<Session, 
         std::thread::spawn(move || watch(&shared, demand.cycle))
     };
     let wrote = if loaded {
-        write(writing.try_clone()?, &switches, &shared, demand.cycle, duration)?
+        let (writing, shared, cycle) = (writing.try_clone()?, Arc::clone(&shared), demand.cycle);
+        let wrote = std::thread::spawn(move || write(writing, &switches, &shared, cycle, duration));
+        wrote.join().map_err(|_| io::Error::other("the writer died"))??
     } else {
         std::thread::sleep(duration);
         Wrote::default()
@@ -315,6 +332,7 @@ fn write(
     duration: Duration,
 ) -> io::Result<Wrote> {
     sharpen_sleep();
+    shared.schedule();
     let mut socket = WebSocket::from_raw_socket(stream, Role::Server, None);
     let mut wrote = Wrote::default();
     let begun = Instant::now();
@@ -334,6 +352,7 @@ fn write(
 /// A bare thread beside it all: when it wakes late, nobody is served in time.
 fn watch(shared: &Shared, cycle: Duration) {
     sharpen_sleep();
+    shared.schedule();
     let begun = shared.begun.elapsed();
     let mut due = begun;
     while !shared.over.load(Ordering::Relaxed) {
@@ -399,6 +418,7 @@ impl Reader {
 
     /// Reads until the session ends.
     fn run(mut self, shared: &Shared, cycle: Duration) -> Heard {
+        shared.schedule();
         let mut heard = Heard { took: histogram(), cycles: 0, missed: Vec::new(), out_of_turn: 0 };
         let mut waiting = self.blocks;
         while let Ok(text) = read(&mut self.socket) {
@@ -435,15 +455,11 @@ impl Reader {
     }
 }
 
-/// How many blocks can be held every `cycle`: doubled until a cycle is missed that the system did not miss, then halved in.
-pub fn limit(
-    cycle: Duration,
-    step: Duration,
-    trial: Duration,
-    mut progress: impl FnMut(&Held),
-) -> Result<usize, BenchError> {
+/// How many blocks can be held as `demand` says, whatever number it names: doubled until a cycle is missed that the system
+/// did not miss, then halved in.
+pub fn limit(demand: Demand, mut progress: impl FnMut(&Held)) -> Result<usize, BenchError> {
     let mut holds = |blocks: usize| -> Result<bool, BenchError> {
-        let held = hold(Demand { blocks, cycle, duration: trial, step })?;
+        let held = hold(Demand { blocks, ..demand })?;
         progress(&held);
         Ok(held.is_held())
     };

@@ -7,6 +7,7 @@ pub mod blocks;
 mod channel;
 mod echo;
 pub mod latency;
+mod lateness;
 pub mod load;
 mod modbus;
 mod mqtt;

@@ -130,6 +130,9 @@ pub struct LoadArguments {
     /// The engine's step of simulated time
     #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "1ms")]
     pub step: Duration,
+    /// Asks the system to run simulation, exchange and the measuring threads before everything else (SCHED_FIFO)
+    #[arg(long)]
+    pub realtime: bool,
     /// Looks for the most blocks that can be held
     #[arg(long, conflicts_with = "blocks")]
     pub limit: bool,
@@ -198,6 +201,12 @@ pub struct RunArguments {
     /// each step waits until the automation has handled what was sent. It needs the embedded automation.
     #[arg(long, value_name = "FACTOR|max", value_parser = parse_speed, default_value = "1.0")]
     pub speed: Speed,
+    /// Asks the system to run simulation and exchange before everything else (SCHED_FIFO); a warning where it refuses
+    ///
+    /// Steps then begin on time on a machine that has other things to do. Linux permits it with the capability
+    /// CAP_SYS_NICE or a limit on real-time priorities (ulimit -r).
+    #[arg(long)]
+    pub realtime: bool,
     /// The seed of all that is random in the plant: the same seed, the same parts
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,

@@ -57,9 +57,11 @@ fn row_text(row: &Measured) -> String {
 }
 
 fn load(arguments: &LoadArguments) -> Result<Answer, Failure> {
-    let LoadArguments { blocks, cycle, duration, step, limit, json } = arguments;
+    let LoadArguments { blocks, cycle, duration, step, realtime, limit, json } = arguments;
+    let demand =
+        Demand { blocks: *blocks as usize, cycle: *cycle, duration: *duration, step: *step, realtime: *realtime };
     if *limit {
-        let found = load::limit(*cycle, *step, *duration, |held| words::tell(held_line(held)))?;
+        let found = load::limit(demand, |held| words::tell(held_line(held)))?;
         if *json {
             words::answer_line(serde_json::json!({ "cycle_ms": cycle.as_secs_f64() * 1e3, "blocks": found }))?;
         } else {
@@ -67,7 +69,7 @@ fn load(arguments: &LoadArguments) -> Result<Answer, Failure> {
         }
         return Ok(Answer::Yes);
     }
-    let held = load::hold(Demand { blocks: *blocks as usize, cycle: *cycle, duration: *duration, step: *step })?;
+    let held = load::hold(demand)?;
     if *json {
         words::answer_line(serde_json::to_string(&held)?)?;
     } else {

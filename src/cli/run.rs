@@ -187,6 +187,7 @@ fn options(arguments: &RunArguments) -> Result<Options, Failure> {
         high: arguments.hf,
         low: arguments.lf,
         speed: arguments.speed,
+        realtime: arguments.realtime,
         seed: arguments.seed,
         signals: (!arguments.select.is_empty()).then(|| arguments.select.clone()),
         stop_on_collision: arguments.stop_on_collision,

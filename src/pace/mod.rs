@@ -11,10 +11,12 @@ mod answer;
 mod bell;
 mod clock;
 mod exchange;
+mod realtime;
 mod simulation;
 
 pub use answer::answer;
 pub use bell::{Bell, Ears, Listener, bell};
 pub use clock::WallClock;
 pub use exchange::{Exchange, Rates, drive};
+pub use realtime::{Refused, Urgency, prefer};
 pub use simulation::{Journal, Next, NoJournal, Simulation, Timing, sharpen_sleep};

@@ -28,6 +28,9 @@ pub struct Options {
     /// The refresh interval of the low-frequency loop.
     pub low: Option<Duration>,
     pub speed: Speed,
+    /// Whether the system is asked to run simulation and exchange before all that shares the processors by turns; where it
+    /// refuses, a notice says so, and the run goes on.
+    pub realtime: bool,
     /// The seed of all that is random in the plant.
     pub seed: u64,
     /// Whether the bodies of the scene are watched for collisions, beside the parts.
@@ -98,6 +101,7 @@ impl Options {
             high: None,
             low: None,
             speed: Speed::Wall(1.0),
+            realtime: false,
             seed: 0,
             collisions: true,
             stop_on_collision: false,
@@ -137,6 +141,10 @@ impl Options {
             Speed::Wall(speed) if !(0.01..=1000.0).contains(&speed) => {
                 refuse(format!("--speed is {speed}: expected 0.01 to 1000, or max"))
             }
+            Speed::Max if self.realtime => refuse(
+                "--realtime with --speed max: steps that keep to no clock are never late; leave out one of them"
+                    .to_owned(),
+            ),
             _ => Ok(()),
         }
     }

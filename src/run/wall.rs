@@ -9,7 +9,7 @@ use crossbeam::channel::{Sender, bounded};
 
 use super::control::{self, Desk};
 use super::live::{self, ExchangeFrame, Publisher, SimulationFrame};
-use super::notice::{incident, notice};
+use super::notice::{Gravity, incident, notice};
 use super::recording::{self, Tap};
 use super::summary::{Simulated, Spoken};
 use super::{
@@ -20,7 +20,7 @@ use crate::automation::server::{ListenSettings, Server};
 use crate::automation::{Automation, Control, Faulty};
 use crate::bank;
 use crate::engine::Engine;
-use crate::pace::{Exchange, Listener, Next, Simulation, WallClock, bell, drive};
+use crate::pace::{Exchange, Listener, Next, Simulation, Urgency, WallClock, bell, drive, prefer};
 use crate::plant::Plant;
 use crate::scene::Scene;
 
@@ -64,6 +64,7 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
         say: say.clone(),
         stop: stop.clone(),
         spoken: Spoken::default(),
+        realtime: options.realtime,
     };
     let io = spawn("io", move || io.run(listener))?;
     let simulating = Simulating {
@@ -75,6 +76,7 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
         stop_on_collision: options.stop_on_collision,
         speed,
         desk,
+        realtime: options.realtime,
     };
     let simulating = spawn("simulation", move || simulating.run())?;
 
@@ -153,13 +155,19 @@ struct Simulating {
     speed: f64,
     /// Where it can be controlled.
     desk: Option<Desk>,
+    realtime: bool,
 }
 
 impl Simulating {
     /// Simulates until the last step or until it is stopped. When it is done the bell is gone: that ends the IO thread.
     fn run(self) -> Simulated {
-        let Simulating { mut simulation, frames, say, stop, steps, stop_on_collision, speed, mut desk } = self;
+        let Simulating { mut simulation, frames, say, stop, steps, stop_on_collision, speed, mut desk, realtime } =
+            self;
         let clock = WallClock::start();
+        if realtime && let Err(refused) = prefer(Urgency::Simulation) {
+            let text = refused.to_string();
+            let _ = say.try_send(Notice { at: clock.now(), gravity: Gravity::Warning, text, place: None });
+        }
         let frame_steps = |speed: f64| {
             ((FRAME_INTERVAL.as_secs_f64() * speed / simulation.engine().step().as_secs_f64()) as u64).max(1)
         };
@@ -190,6 +198,7 @@ struct Io {
     say: Sender<Notice>,
     stop: Stop,
     spoken: Spoken,
+    realtime: bool,
 }
 
 impl Io {
@@ -197,7 +206,11 @@ impl Io {
     fn run(mut self, listener: Listener) -> io::Result<Spoken> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let clock = WallClock::start();
-        let Io { exchange, frames, say, stop, spoken } = &mut self;
+        if self.realtime {
+            // Where it is refused, the simulation's thread was refused as well, and says so.
+            let _ = prefer(Urgency::Exchange);
+        }
+        let Io { exchange, frames, say, stop, spoken, .. } = &mut self;
         runtime.block_on(async {
             let ears = listener.listen()?;
             drive(exchange, ears, clock, |exchange, now| {

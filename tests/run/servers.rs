@@ -203,11 +203,41 @@ fn mistakes_in_arguments_and_models_end_with_2_and_start_nothing() {
     check(&["run", "rig", "--hf", "0s"], "--hf is 0s: expected 1ms to 3600s");
     check(&["run", "rig", "--connect", "http://localhost:1"], "expected ws://HOST:PORT");
     check(&["run", "rig", "--speed", "max", "--connect", "ws://127.0.0.1:9"], "needs the embedded automation");
+    check(&["run", "rig", "--speed", "max", "--realtime"], "--realtime with --speed max");
     check(&["run", "rig", "--max-message", "10"], "expected at least 1024");
     check(&["run", "rig", "--token-file", "nowhere"], "failed to read the token from nowhere");
     check(&["run", "rig", "--record", "Cargo.toml"], "Cargo.toml is there already");
     check(&["run", "rig", "--record", "nowhere/trace"], "failed to record to nowhere/trace");
     check(&["fly"], "unrecognized subcommand");
+}
+
+/// The real-time priority of each thread of a process, by the thread's name (proc_pid_stat(5): field 40); 0 is none.
+#[cfg(target_os = "linux")]
+fn priorities(process: u32) -> Vec<(String, u32)> {
+    let tasks = std::fs::read_dir(format!("/proc/{process}/task")).expect("a process that runs");
+    let of = |task: std::io::Result<std::fs::DirEntry>| {
+        let stat = std::fs::read_to_string(task.ok()?.path().join("stat")).ok()?;
+        let (head, rest) = stat.rsplit_once(") ")?;
+        Some((head.split_once('(')?.1.to_owned(), rest.split(' ').nth(40 - 3)?.parse().ok()?))
+    };
+    tasks.filter_map(of).collect()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn simulation_and_exchange_are_scheduled_in_real_time_or_the_run_says_why_not() {
+    let mut run = Running::start(&["run", "rig", "--realtime"]);
+    // By then both threads have had work.
+    run.line("stands");
+    let found = priorities(run.id());
+    let of = |name: &str| found.iter().find(|(thread, _)| thread == name).expect(name).1;
+    if run.said.iter().any(|line| line.contains("warning: the system refuses real-time scheduling")) {
+        assert_eq!((of("simulation"), of("io")), (0, 0));
+    } else {
+        assert_eq!((of("simulation"), of("io")), (20, 10));
+    }
+    run.interrupt();
+    assert_eq!(run.end().code(), 0);
 }
 
 #[test]
