@@ -72,12 +72,15 @@ impl Simulation {
                     }
                     reached.store(i64::from(number), Ordering::Relaxed);
                     step += 1_000_000;
-                    if rests {
-                        std::thread::sleep(Duration::from_micros(50));
+                    // A step takes one command; others may wait behind it.
+                    if rests && inputs.is_empty() {
+                        // Until it is told to go on, or the IO thread has had a turn and may have brought something.
+                        std::thread::park();
                     }
                 }
             })
         };
+        let counter = counting.thread().clone();
         let speaking = std::thread::spawn(move || {
             let mut connector = WebSocketConnector::new();
             let endpoint = Endpoint::new(address.ip().to_string(), address.port());
@@ -89,7 +92,7 @@ impl Simulation {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
             runtime.block_on(async {
                 let ears = ears.listen().expect("ears");
-                drive(&mut exchange, ears, WallClock::start(), |_, _| {}).await;
+                drive(&mut exchange, ears, WallClock::start(), |_, _| counter.unpark()).await;
             });
             exchange.adapter().traffic()
         });
@@ -99,6 +102,7 @@ impl Simulation {
     /// Counts on to `number`, as fast as it can.
     fn count_to(&self, number: i32) {
         self.target.store(number.into(), Ordering::Relaxed);
+        self.counting.thread().unpark();
     }
 
     /// Waits until it has counted to `number`.
@@ -122,6 +126,7 @@ impl Simulation {
     /// Ends the run in good order, and gives what went through.
     fn end(self, automation: Automation) -> Traffic {
         self.over.store(true, Ordering::Relaxed);
+        self.counting.thread().unpark();
         self.counting.join().expect("the counting thread");
         automation.hear_the_end();
         self.speaking.join().expect("the IO thread")

@@ -80,15 +80,17 @@ impl Bench {
         assert!(answer["hint"].as_str().is_some_and(|hint| !hint.is_empty()), "what to do: {answer}");
     }
 
-    /// Asks until it is so.
+    /// Asks until it is so, once for every picture that is taken of the run.
     #[track_caller]
     fn until(&self, path: &str, is_so: impl Fn(&Value) -> bool) -> Value {
-        for _ in 0..1000 {
+        let runtime = tokio::runtime::Builder::new_current_thread().build().expect("a runtime");
+        let mut pictures = self.live.frames();
+        for _ in 0..500 {
             let (_, answer) = self.json("GET", path, &Value::Null);
             if is_so(&answer) {
                 return answer;
             }
-            std::thread::sleep(Duration::from_millis(10));
+            runtime.block_on(pictures.changed()).expect("the run is looked at");
         }
         panic!("{path} never became so: {}", self.json("GET", path, &Value::Null).1);
     }
