@@ -256,7 +256,8 @@ impl Reader<'_, '_> {
     }
 
     fn colour(&mut self, text: &Located<String>) -> Option<[u8; 3]> {
-        let channels: Option<Vec<u8>> = text.value.split(';').map(|channel| channel.trim().parse().ok()).collect();
+        let channels: Option<Vec<u8>> =
+            text.value.split(';').map(|channel| channel.trim().parse::<u8>().ok()).collect();
         let colour = channels.and_then(|channels| <[u8; 3]>::try_from(channels).ok());
         if colour.is_none() {
             let found = format!("{:?} is no colour", text.value);

@@ -97,7 +97,8 @@ fn soak(arguments: &Arguments) -> Result<Vec<String>, String> {
                 "server killed and restarted"
             }
             1 => {
-                proxy.stall(Duration::from_millis(200 + dice.roll(3_000)));
+                // At this load a second and a half is what run and automation promise to keep for each other.
+                proxy.stall(Duration::from_millis(200 + dice.roll(1_000)));
                 "socket stalled"
             }
             2 => {
@@ -106,7 +107,7 @@ fn soak(arguments: &Arguments) -> Result<Vec<String>, String> {
             }
             3 => {
                 // To the run, every clock steps.
-                run.freeze(Duration::from_millis(100 + dice.roll(1_500)));
+                run.freeze(Duration::from_millis(100 + dice.roll(1_000)));
                 "run stopped, and its clocks stepped"
             }
             _ => {
@@ -122,6 +123,7 @@ fn soak(arguments: &Arguments) -> Result<Vec<String>, String> {
     }
     let ended = run.stop()?;
     println!("{}", ended.summary);
+    println!("told of {} losses past what is kept", ended.losses_told());
     faults.extend(ended.faults(arguments.seconds));
     if let Some(recording) = recording {
         faults.extend(recording.stop()?.faults_of_a_full_disk());

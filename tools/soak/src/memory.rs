@@ -12,10 +12,15 @@ pub struct Slope {
     slope: f64,
     half: f64,
     last_mib: f64,
+    minutes: f64,
 }
 
-/// What may not be told from the noise of an allocator: a megabyte in an hour.
-const NEGLIGIBLE_KIB_A_MINUTE: f64 = 1024.0 / 60.0;
+/// What may not be told from an allocator that finds its size: a megabyte over the time that was watched.
+const NEGLIGIBLE_KIB: f64 = 1024.0;
+/// How long has to be watched before a slope tells a leak from buffers that find their size, minutes.
+const LONG_ENOUGH: f64 = 6.0;
+/// More than a run and all that may wait in it takes, MiB: past that it grows, however short the time.
+const MOST_MIB: f64 = 96.0;
 /// Blocks of samples whose means count as independent.
 const BLOCKS: usize = 12;
 
@@ -44,20 +49,22 @@ impl Memory {
         let rest: f64 = blocks.iter().map(|b| (b.1 - y - slope * (b.0 - x)).powi(2)).sum();
         // Student's t for ten degrees of freedom, two-sided 95 %.
         let half = 2.228 * (rest / (BLOCKS as f64 - 2.0) / sxx).sqrt();
-        Some(Slope { slope, half, last_mib: samples.last()?.1 / 1024.0 })
+        let (first, last) = (samples.first()?, samples.last()?);
+        Some(Slope { slope, half, last_mib: last.1 / 1024.0, minutes: last.0 - first.0 })
     }
 }
 
 impl Slope {
-    /// Whether it grows beyond doubt, and by more than nothing.
+    /// Whether it grows beyond doubt, and by more than nothing; in a short time, whether it is more than can be explained.
     pub fn grows(&self) -> bool {
-        self.slope - self.half > NEGLIGIBLE_KIB_A_MINUTE
+        let is_beyond_doubt = (self.slope - self.half) * self.minutes > NEGLIGIBLE_KIB;
+        (self.minutes >= LONG_ENOUGH && is_beyond_doubt) || self.last_mib > MOST_MIB
     }
 }
 
 impl fmt::Display for Slope {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Slope { slope, half, last_mib } = self;
+        let Slope { slope, half, last_mib, .. } = self;
         write!(
             f,
             "{slope:+.1} KiB a minute ({:+.1} to {:+.1}), {last_mib:.1} MiB at the end",
@@ -81,6 +88,6 @@ mod tests {
     fn a_leak_is_seen_and_noise_is_none() {
         let noise = |s: u64| (s * 7919) % 13 * 4096;
         assert!(!slope(|s| 50_000_000 + noise(s)).grows());
-        assert!(slope(|s| 50_000_000 + noise(s) + s * 2048).grows(), "120 KiB a minute");
+        assert!(slope(|s| 50_000_000 + noise(s) + s * 4096).grows(), "240 KiB a minute");
     }
 }
