@@ -50,6 +50,9 @@ type Closing = Pin<Box<dyn Future<Output = ()> + Send>>;
 /// Past so many bytes waiting to be sent, nothing more is taken out of the bank.
 const CONGESTED: usize = 256 * 1024;
 
+/// How much is read at once, bytes. The WebSocket fills so much with zeros before it reads, whatever comes.
+const READ_BUFFER: usize = 16 * 1024;
+
 /// How long the other side of a connection that is being closed has to read the reason. Without this pause what it is
 /// still sending would make the operating system reset the connection, and throw the reason away.
 const LINGER: Duration = Duration::from_secs(1);
@@ -221,7 +224,10 @@ async fn open(settings: Settings) -> Result<Web, Error> {
         None => Stream::Plain(stream),
     };
     let request = handshake(endpoint, token.as_ref())?;
-    let limits = WebSocketConfig::default().max_message_size(Some(*max_message)).max_frame_size(Some(*max_message));
+    let limits = WebSocketConfig::default()
+        .max_message_size(Some(*max_message))
+        .max_frame_size(Some(*max_message))
+        .read_buffer_size(READ_BUFFER);
     let (web, _response) = client_async_with_config(request, stream, Some(limits)).await?;
     Ok(web)
 }

@@ -79,7 +79,7 @@ mod names {
     pub const WEB_200: &str = "tokio-tungstenite echo, 200 values";
     pub const R001: &str = "kinetwin R001 exchange, 200 blocks";
     pub const SERDE: &str = "tokio-tungstenite and serde_json, 200 blocks";
-    pub const MODBUS: &str = "Modbus TCP, write 100 and read 100";
+    pub const MODBUS: &str = "Modbus TCP, 200 blocks";
     pub const RAW_PACED: &str = "every 10 ms: raw TCP echo, 200 values";
     pub const WEB_PACED: &str = "every 10 ms: tokio-tungstenite echo, 200 values";
     pub const R001_PACED: &str = "every 10 ms: kinetwin R001 exchange";
@@ -99,7 +99,6 @@ pub fn measure(effort: Effort, mut progress: impl FnMut(&str)) -> Result<Table, 
     progress("connecting");
     let mut rows = back_to_back(broker.as_ref(), &mut absent)?;
     rows.extend(paced(broker.as_ref())?);
-    rows.extend(runs()?);
     for row in &mut rows {
         row.warm_up(if row.pace.is_some() { 20 } else { 5 }).map_err(|source| failed(row, source))?;
     }
@@ -112,6 +111,10 @@ pub fn measure(effort: Effort, mut progress: impl FnMut(&str)) -> Result<Table, 
     }
     let mut measured: Vec<Measured> = rows.iter().map(Row::measured).collect();
     drop(rows);
+    for run in RUNS {
+        progress(run.name);
+        measured.push(run.measure(effort)?);
+    }
     measured.extend(lateness::measure(2 * effort.rounds, progress)?);
     Ok(Table::new(measured, absent))
 }
@@ -144,11 +147,11 @@ fn back_to_back(broker: Option<&Broker>, absent: &mut Vec<&'static str>) -> Resu
     match broker {
         None => absent.push("mosquitto"),
         Some(broker) => {
-            for (qos, text, what) in
-                [(0, &small, "1 value"), (1, &small, "1 value"), (0, &large, "200 values"), (1, &large, "200 values")]
-            {
-                let name = format!("MQTT QoS {qos} through mosquitto, {what}");
-                rows.push(row(&name, text.len(), Box::new(Mqtt::new(broker, qos, text.len())?)));
+            for qos in [0, 1] {
+                let name = |what: &str| format!("MQTT QoS {qos} through mosquitto, {what}");
+                rows.push(row(&name("1 value"), small.len(), Box::new(Mqtt::echo(broker, qos, "one", small.len())?)));
+                let peer = Mqtt::blocks(broker, qos, "blocks", blocks::R001)?;
+                rows.push(row(&name("200 blocks"), large.len(), Box::new(peer)));
             }
         }
     }
@@ -176,17 +179,12 @@ fn paced(broker: Option<&Broker>) -> Result<Vec<Row>, BenchError> {
         row(names::WEB_PACED, large.len(), Box::new(echo::web(&large)?)),
         row(names::R001_PACED, large.len(), Box::new(Exchanged::new(&many)?)),
         row(names::SERDE_PACED, large.len(), Box::new(SerdeLoop::new(blocks::R001)?)),
-        row("every 10 ms: Modbus TCP", Modbus::bytes(), Box::new(Modbus::new()?)),
+        row("every 10 ms: Modbus TCP, 200 blocks", Modbus::bytes(), Box::new(Modbus::new()?)),
     ];
     if let Some(broker) = broker {
         for qos in [0, 1] {
-            // Named apart from those back to back: a broker knows its clients by name.
-            let bytes = large.len() + 1;
-            rows.push(row(
-                &format!("every 10 ms: MQTT QoS {qos}, 200 values"),
-                bytes,
-                Box::new(Mqtt::new(broker, qos, bytes)?),
-            ));
+            let peer = Mqtt::blocks(broker, qos, "paced", blocks::R001)?;
+            rows.push(row(&format!("every 10 ms: MQTT QoS {qos}, 200 blocks"), large.len(), Box::new(peer)));
         }
     }
     if let Some(peer) = OpcUa::start(1) {
@@ -196,18 +194,30 @@ fn paced(broker: Option<&Broker>) -> Result<Vec<Row>, BenchError> {
     Ok(rows)
 }
 
-/// Whole runs on the wall clock: idle, which is one block of 200 that is set, and at R001's load.
-fn runs() -> Result<Vec<Row>, BenchError> {
-    let many = Arc::new(blocks::plant(blocks::R001));
-    let run = |name: &str, switched, pace| -> Result<Row, BenchError> {
-        let [on, _] = channel::first_switches(&many, switched);
-        Ok(Row::new(name, on.len(), pace, Box::new(Running::start(&many, switched)?)))
-    };
-    Ok(vec![
-        run(names::RUN_BACK_TO_BACK, blocks::R001, None)?,
-        run(names::RUN_IDLE, 1, Some(WANDERING))?,
-        run(names::RUN_LOAD, blocks::R001, Some(WANDERING))?,
-    ])
+/// A whole run on the wall clock, in steps of 1 ms. Each is measured by itself: the others would step on beside it.
+struct RunRow {
+    name: &'static str,
+    /// How many of 200 blocks are set: one is idle, all are R001's load.
+    switched: usize,
+    pace: Option<Duration>,
+}
+
+const RUNS: [RunRow; 3] = [
+    RunRow { name: names::RUN_BACK_TO_BACK, switched: blocks::R001, pace: None },
+    RunRow { name: names::RUN_IDLE, switched: 1, pace: Some(WANDERING) },
+    RunRow { name: names::RUN_LOAD, switched: blocks::R001, pace: Some(WANDERING) },
+];
+
+impl RunRow {
+    fn measure(&self, effort: Effort) -> Result<Measured, BenchError> {
+        let plant = Arc::new(blocks::plant(blocks::R001));
+        let [on, _] = channel::first_switches(&plant, self.switched);
+        let running = Running::start(&plant, self.switched)?;
+        let mut row = Row::new(self.name, on.len(), self.pace, Box::new(running));
+        let measured = row.warm_up(20).and_then(|()| row.measure(effort.rounds * effort.paced_calls));
+        measured.map_err(|source| failed(&row, source))?;
+        Ok(row.measured())
+    }
 }
 
 /// The bytes of one block's report.

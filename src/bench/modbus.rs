@@ -1,4 +1,5 @@
-//! Modbus TCP (MODBUS Messaging on TCP/IP Implementation Guide V1.0b): 100 registers are written, 100 are read.
+//! Modbus TCP (MODBUS Messaging on TCP/IP Implementation Guide V1.0b): a register for each of 200 blocks is written, and one
+//! is read. A request has room for 123 registers, so that each way takes two.
 
 use std::io::{self, Read, Write as _};
 use std::net::{TcpListener, TcpStream};
@@ -6,6 +7,8 @@ use std::net::{TcpListener, TcpStream};
 use super::row::Peer;
 
 const REGISTERS: u16 = 100;
+/// Requests each way.
+const REQUESTS: u16 = 2;
 const WRITE_MULTIPLE: u8 = 16;
 const READ_HOLDING: u8 = 3;
 
@@ -14,6 +17,7 @@ pub struct Modbus {
     stream: TcpStream,
     transaction: u16,
     registers: [u16; REGISTERS as usize],
+    value: u16,
 }
 
 impl Modbus {
@@ -24,12 +28,12 @@ impl Modbus {
         let (slave, _) = listener.accept()?;
         slave.set_nodelay(true)?;
         std::thread::spawn(move || serve(slave));
-        Ok(Modbus { stream, transaction: 0, registers: [0; REGISTERS as usize] })
+        Ok(Modbus { stream, transaction: 0, registers: [0; REGISTERS as usize], value: 0 })
     }
 
-    /// The bytes of the two requests.
+    /// The bytes of all requests.
     pub fn bytes() -> usize {
-        7 + 6 + 2 * usize::from(REGISTERS) + 7 + 5
+        usize::from(REQUESTS) * (7 + 6 + 2 * usize::from(REGISTERS) + 7 + 5)
     }
 
     fn request(&mut self, data: &[u8]) -> io::Result<Vec<u8>> {
@@ -42,15 +46,25 @@ impl Modbus {
 
 impl Peer for Modbus {
     fn call(&mut self) -> io::Result<()> {
-        let next = self.registers[0].wrapping_add(1);
+        (0..REQUESTS).try_for_each(|_| self.write())?;
+        (0..REQUESTS).try_for_each(|_| self.read())
+    }
+}
+
+impl Modbus {
+    fn write(&mut self) -> io::Result<()> {
+        self.value = self.value.wrapping_add(1);
         let mut write = vec![WRITE_MULTIPLE, 0, 0, 0, REGISTERS as u8, 2 * REGISTERS as u8];
-        (0..REGISTERS).for_each(|k| write.extend(next.wrapping_add(k).to_be_bytes()));
-        self.request(&write)?;
+        (0..REGISTERS).for_each(|k| write.extend(self.value.wrapping_add(k).to_be_bytes()));
+        self.request(&write).map(drop)
+    }
+
+    fn read(&mut self) -> io::Result<()> {
         let answer = self.request(&[READ_HOLDING, 0, 0, 0, REGISTERS as u8])?;
         for (register, bytes) in self.registers.iter_mut().zip(answer[2..].chunks_exact(2)) {
             *register = u16::from_be_bytes([bytes[0], bytes[1]]);
         }
-        if self.registers[0] == next { Ok(()) } else { Err(io::ErrorKind::InvalidData.into()) }
+        if self.registers[0] == self.value { Ok(()) } else { Err(io::ErrorKind::InvalidData.into()) }
     }
 }
 

@@ -4,30 +4,49 @@
 
 use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::row::Peer;
+use super::serde_loop::{Blocks, Caller};
 
 /// A broker of our own, on a free port; it ends with this.
 pub struct Broker {
     child: Child,
     port: u16,
+    /// Its configuration, for as long as it runs.
+    _settings: Settings,
+}
+
+/// A file that is gone with this.
+struct Settings(PathBuf);
+
+impl Settings {
+    /// The broker's own default lets small packets wait for the acknowledgement of those before (Nagle's algorithm), which
+    /// costs 40 ms a message of QoS 1; nobody who measures leaves it so.
+    fn write(port: u16) -> io::Result<Settings> {
+        let path = std::env::temp_dir().join(format!("kinetwin-mosquitto-{}-{port}.conf", std::process::id()));
+        std::fs::write(&path, format!("listener {port} 127.0.0.1\nallow_anonymous true\nset_tcp_nodelay true\n"))?;
+        Ok(Settings(path))
+    }
+}
+
+impl Drop for Settings {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
 }
 
 impl Broker {
     /// Starts mosquitto; `None` where it is not installed.
     pub fn start() -> Option<Broker> {
         let port = std::net::TcpListener::bind("127.0.0.1:0").ok()?.local_addr().ok()?.port();
+        let settings = Settings::write(port).ok()?;
         let found = ["mosquitto", "/usr/sbin/mosquitto"].into_iter().find_map(|program| {
-            Command::new(program)
-                .args(["-p", &port.to_string()])
-                .stdout(Stdio::null())
-                .stderr(Stdio::null())
-                .spawn()
-                .ok()
+            Command::new(program).arg("-c").arg(&settings.0).stdout(Stdio::null()).stderr(Stdio::null()).spawn().ok()
         });
-        let broker = Broker { child: found?, port };
+        let broker = Broker { child: found?, port, _settings: settings };
         let begun = Instant::now();
         while begun.elapsed() < Duration::from_secs(5) {
             if TcpStream::connect(("127.0.0.1", port)).is_ok() {
@@ -47,34 +66,74 @@ impl Drop for Broker {
     }
 }
 
-/// Two clients of a broker; one sends back what the other publishes.
+/// Two clients of a broker; one answers what the other publishes.
 pub struct Mqtt {
     client: Client,
-    payload: Vec<u8>,
+    work: Work,
+}
+
+/// What is done at either end.
+enum Work {
+    /// The same bytes come back.
+    Echo(Vec<u8>),
+    /// So many blocks are set and report, in JSON.
+    Blocks(Caller),
 }
 
 impl Mqtt {
-    /// Through `broker` with quality of service `qos` (0 or 1), so many bytes.
-    pub fn new(broker: &Broker, qos: u8, bytes: usize) -> io::Result<Mqtt> {
-        let name = format!("{qos}-{bytes}");
-        let mut echo = Client::connect(broker.port, &format!("echo-{name}"), &format!("there/{name}"), qos)?;
-        let client = Client::connect(broker.port, &format!("call-{name}"), &format!("back/{name}"), qos)?;
-        let back = format!("back/{name}");
-        std::thread::spawn(move || -> io::Result<()> {
-            loop {
-                let payload = echo.receive()?;
-                echo.publish(&back, &payload)?;
-            }
-        });
-        Ok(Mqtt { client, payload: vec![b'x'; bytes] })
+    /// Through `broker` with quality of service `qos` (0 or 1), so many bytes and back. `name` tells it from the broker's
+    /// other clients.
+    pub fn echo(broker: &Broker, qos: u8, name: &str, bytes: usize) -> io::Result<Mqtt> {
+        let client = answered(broker, qos, name, |payload| Ok(payload.to_vec()))?;
+        Ok(Mqtt { client, work: Work::Echo(vec![b'x'; bytes]) })
     }
+
+    /// The same with the work of so many blocks: both ends write and read JSON with serde_json.
+    pub fn blocks(broker: &Broker, qos: u8, name: &str, blocks: usize) -> io::Result<Mqtt> {
+        let mut plant = Blocks::new(blocks);
+        let client = answered(broker, qos, name, move |payload| {
+            let text = std::str::from_utf8(payload).map_err(io::Error::other)?;
+            Ok(plant.answer(text)?.into_bytes())
+        })?;
+        Ok(Mqtt { client, work: Work::Blocks(Caller::new(blocks)) })
+    }
+}
+
+/// A client whose messages another one answers as `answer` says.
+fn answered(
+    broker: &Broker,
+    qos: u8,
+    name: &str,
+    mut answer: impl FnMut(&[u8]) -> io::Result<Vec<u8>> + Send + 'static,
+) -> io::Result<Client> {
+    let name = format!("{qos}-{name}");
+    let mut other = Client::connect(broker.port, &format!("echo-{name}"), &format!("there/{name}"), qos)?;
+    let client = Client::connect(broker.port, &format!("call-{name}"), &format!("back/{name}"), qos)?;
+    let back = format!("back/{name}");
+    std::thread::spawn(move || -> io::Result<()> {
+        loop {
+            let payload = other.receive()?;
+            other.publish(&back, &answer(&payload)?)?;
+        }
+    });
+    Ok(client)
 }
 
 impl Peer for Mqtt {
     fn call(&mut self) -> io::Result<()> {
-        let topic = self.client.partner.clone();
-        self.client.publish(&topic, &self.payload)?;
-        self.client.receive().map(drop)
+        let Mqtt { client, work } = self;
+        let topic = client.partner.clone();
+        match work {
+            Work::Echo(payload) => {
+                client.publish(&topic, payload)?;
+                client.receive().map(drop)
+            }
+            Work::Blocks(caller) => {
+                client.publish(&topic, caller.ask()?.as_bytes())?;
+                let answer = client.receive()?;
+                caller.hear(std::str::from_utf8(&answer).map_err(io::Error::other)?)
+            }
+        }
     }
 }
 

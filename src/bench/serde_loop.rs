@@ -26,9 +26,7 @@ struct Entry<'a> {
 /// `blocks` values out, as many back, serde_json at both ends.
 pub struct SerdeLoop {
     web: Web,
-    names: Vec<String>,
-    reports: HashMap<String, bool>,
-    value: bool,
+    caller: Caller,
 }
 
 impl SerdeLoop {
@@ -41,7 +39,7 @@ impl SerdeLoop {
                 let stream = tokio::net::TcpStream::connect(address).await.ok()?;
                 stream.set_nodelay(true).ok()?;
                 let (mut web, _) = client_async(format!("ws://{address}"), stream).await.ok()?;
-                let mut plant = Plant::new(blocks);
+                let mut plant = Blocks::new(blocks);
                 while let Some(Ok(Message::Text(text))) = web.next().await {
                     let answer = plant.answer(&text).ok()?;
                     web.send(Message::text(answer)).await.ok()?;
@@ -49,19 +47,40 @@ impl SerdeLoop {
                 Some(())
             })
         });
-        let names = (0..blocks).map(|block| format!("Block{:03}.enable", block + 1)).collect();
-        let reports = (0..blocks).map(|block| (format!("Block{:03}.ready", block + 1), false)).collect();
-        Ok(SerdeLoop { web: Web::accept(listener)?, names, reports, value: false })
+        Ok(SerdeLoop { web: Web::accept(listener)?, caller: Caller::new(blocks) })
     }
 }
 
 impl Peer for SerdeLoop {
     fn call(&mut self) -> io::Result<()> {
+        let text = self.caller.ask()?;
+        let answer = self.web.ask(text.into())?;
+        self.caller.hear(&answer)
+    }
+}
+
+/// The automation's end: switches all blocks, and keeps what they report.
+pub struct Caller {
+    names: Vec<String>,
+    reports: HashMap<String, bool>,
+    value: bool,
+}
+
+impl Caller {
+    pub fn new(blocks: usize) -> Caller {
+        let names = (0..blocks).map(|block| format!("Block{:03}.enable", block + 1)).collect();
+        let reports = (0..blocks).map(|block| (format!("Block{:03}.ready", block + 1), false)).collect();
+        Caller { names, reports, value: false }
+    }
+
+    pub fn ask(&mut self) -> io::Result<String> {
         self.value = !self.value;
         let values = self.names.iter().map(|name| Entry { name, value: self.value }).collect();
-        let text = serde_json::to_string(&Body { values })?;
-        let answer = self.web.ask(text.into())?;
-        let answer: Body<'_> = serde_json::from_str(&answer)?;
+        Ok(serde_json::to_string(&Body { values })?)
+    }
+
+    pub fn hear(&mut self, text: &str) -> io::Result<()> {
+        let answer: Body<'_> = serde_json::from_str(text)?;
         for entry in answer.values {
             *self.reports.get_mut(entry.name).ok_or(io::ErrorKind::InvalidData)? = entry.value;
         }
@@ -70,20 +89,20 @@ impl Peer for SerdeLoop {
 }
 
 /// Blocks whose `ready` is their `enable`.
-struct Plant {
+pub struct Blocks {
     commands: HashMap<String, usize>,
     reports: Vec<String>,
     state: Vec<bool>,
 }
 
-impl Plant {
-    fn new(blocks: usize) -> Plant {
+impl Blocks {
+    pub fn new(blocks: usize) -> Blocks {
         let commands = (0..blocks).map(|block| (format!("Block{:03}.enable", block + 1), block)).collect();
         let reports = (0..blocks).map(|block| format!("Block{:03}.ready", block + 1)).collect();
-        Plant { commands, reports, state: vec![false; blocks] }
+        Blocks { commands, reports, state: vec![false; blocks] }
     }
 
-    fn answer(&mut self, text: &str) -> serde_json::Result<String> {
+    pub fn answer(&mut self, text: &str) -> serde_json::Result<String> {
         for entry in serde_json::from_str::<Body<'_>>(text)?.values {
             if let Some(&block) = self.commands.get(entry.name) {
                 self.state[block] = entry.value;

@@ -42,6 +42,9 @@ pub enum Order {
     Close { code: u16, reason: String },
 }
 
+/// How much is read at once, bytes. The WebSocket fills so much with zeros before it reads, whatever comes.
+const READ_BUFFER: usize = 16 * 1024;
+
 type Web = WebSocketStream<Stream>;
 
 /// How long a client has for the handshake.
@@ -105,7 +108,7 @@ async fn open(stream: TcpStream, settings: &ListenSettings) -> Result<Web, Error
         None => Stream::Plain(stream),
     };
     let limit = Some(settings.max_message);
-    let limits = WebSocketConfig::default().max_message_size(limit).max_frame_size(limit);
+    let limits = WebSocketConfig::default().max_message_size(limit).max_frame_size(limit).read_buffer_size(READ_BUFFER);
     accept_hdr_async_with_config(stream, Admission(settings.token.as_ref()), Some(limits)).await
 }
 
