@@ -182,8 +182,8 @@ fn generated(count: usize) -> Memory {
     Memory(BTreeMap::from([("generated/plant.xml".to_owned(), text)]))
 }
 
-fn loaded(count: usize) -> (Plant, Engine) {
-    let plant = load(&Layered(generated(count), Embedded), "generated", KINDS).expect("a plant");
+fn loaded(files: Memory) -> (Plant, Engine) {
+    let plant = load(&Layered(files, Embedded), "generated", KINDS).expect("a plant");
     let mut engine = Engine::new(&plant, STEP, 1).expect("an engine");
     engine.show(&plant, Arc::new(Scene::of(&plant)));
     engine.watch();
@@ -234,8 +234,12 @@ fn table() {
 
     println!("a step by the devices that stand still, one pusher moving:");
     for count in [10, 100, 1_000, 10_000] {
-        let (plant, mut engine) = loaded(count);
+        let (plant, mut engine) = loaded(generated(count));
         let commands = [commands(&plant, &[("Pusher.command", 1.0)]), commands(&plant, &[("Pusher.command", 2.0)])];
+        // Until all that stands still sleeps.
+        (0..200).for_each(|_| {
+            engine.tick(&[]);
+        });
         let mut step = 0;
         let whole = measure(4_000, || {
             step += 1;
@@ -254,9 +258,14 @@ fn table() {
             world.step(&poses, std::iter::empty(), &mut found);
         });
         let triangles = engine.poses().expect("shown").scene().triangles();
+        engine.keep_awake(true);
+        let visited = measure(500, || {
+            engine.tick(&[]);
+        });
         println!(
-            "  {count:>6} devices, {triangles:>9} triangles: scene and collisions {:>7.3} µs, the whole engine {:>8.2} µs",
-            shape.0, whole.0
+            "  {count:>6} devices, {triangles:>9} triangles: scene and collisions {:>7.3} µs, the whole engine {:>8.2} µs, \
+             {:>8.2} µs with all devices visited",
+            shape.0, whole.0, visited.0
         );
     }
 
@@ -273,8 +282,10 @@ fn table() {
         built.as_secs_f64(),
         begun.elapsed().as_secs_f64()
     );
+    let text = kinetwin::bench::devices::plant_xml(kinetwin::bench::devices::LARGE);
+    let files = Memory(BTreeMap::from([("generated/plant.xml".to_owned(), text)]));
     let begun = Instant::now();
-    let (_, engine) = loaded(2_000);
+    let (_, engine) = loaded(files);
     let triangles = engine.poses().expect("shown").scene().triangles();
     println!("loading 2000 devices, {triangles} triangles: {:.2} s; goal 10", begun.elapsed().as_secs_f64());
 }

@@ -204,6 +204,11 @@ fn diagnose_a_gap() {
 }
 
 #[test]
+fn the_packaging_line() {
+    walk(&page("docs/packaging.md"));
+}
+
+#[test]
 fn every_page_that_shows_commands_is_walked() {
     let this = include_str!("docs.rs");
     for entry in fs::read_dir(root().join("docs")).expect("docs") {

@@ -18,6 +18,7 @@ use kinetwin::value::Value;
 const MODELS: &[&str] = &[
     "models/curve",
     "models/depalletizer",
+    "models/packaging",
     "models/r001",
     "models/rig",
     "models/rig-toleranced",
@@ -38,13 +39,13 @@ fn plant(model: &str) -> Plant {
     load(&Embedded, model, KINDS).unwrap_or_else(|error| panic!("{model}:\n{error}"))
 }
 
-fn xml_files(folder: &Path) -> Vec<PathBuf> {
+fn files_of_models(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
-            found.extend(xml_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "xml") {
+            found.extend(files_of_models(&path));
+        } else if path.extension().is_some_and(|extension| extension == "xml" || extension == "js") {
             found.push(path);
         }
     }
@@ -54,7 +55,7 @@ fn xml_files(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn no_model_is_forgotten_in_the_program() {
     let relative = |path: &PathBuf| path.strip_prefix(root()).expect("below the root").to_string_lossy().into_owned();
-    let mut found: Vec<String> = xml_files(&root().join("models")).iter().map(relative).collect();
+    let mut found: Vec<String> = files_of_models(&root().join("models")).iter().map(relative).collect();
     found.sort();
     assert_eq!(Embedded::paths().collect::<Vec<_>>(), found, "src/plant/embedded.rs lists what stands below models/");
 }
@@ -268,7 +269,8 @@ fn the_pendulums_gains_rise_with_the_servos() {
 }
 
 /// What the catalogue holds for plants that are not ours.
-const FOR_OTHER_PLANTS: [&str; 3] = ["BoxSensor", "ProximitySensor", "VisionSensor"];
+const FOR_OTHER_PLANTS: [&str; 6] =
+    ["BoxSensor", "Dispenser", "InverterConveyor", "ProximitySensor", "SixAxisRobot", "VisionSensor"];
 
 #[test]
 fn every_prototype_is_used_by_a_model_and_has_a_uuid_of_its_own() {

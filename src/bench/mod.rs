@@ -5,6 +5,7 @@
 
 pub mod blocks;
 mod channel;
+pub mod devices;
 mod echo;
 pub mod latency;
 mod lateness;

@@ -87,6 +87,14 @@ pub enum BenchCommand {
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
+    /// Writes the plant's file of so many devices that stand still: 2000 have about two million triangles
+    Devices {
+        #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+        devices: u32,
+        /// Writes it to a file instead of standard output
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
 }
 
 /// Measures the table of docs/performance.md: round trips of kinetwin and of its peers, in turns.

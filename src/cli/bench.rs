@@ -7,14 +7,15 @@ use super::words;
 use super::{Answer, Failure};
 use crate::bench::latency::{self, Effort, Table};
 use crate::bench::load::{self, Demand, Held};
-use crate::bench::{BenchError, Measured, blocks};
+use crate::bench::{BenchError, Measured, blocks, devices};
 
 /// Measures what is asked for.
 pub fn bench(command: &BenchCommand) -> Result<Answer, Failure> {
     match command {
         BenchCommand::Latency(arguments) => latency(arguments),
         BenchCommand::Load(arguments) => load(arguments),
-        BenchCommand::Plant { blocks, output } => plant(*blocks, output.as_deref()),
+        BenchCommand::Plant { blocks, output } => written(blocks::plant_xml(*blocks as usize), output.as_deref()),
+        BenchCommand::Devices { devices, output } => written(devices::plant_xml(*devices as usize), output.as_deref()),
     }
 }
 
@@ -118,8 +119,7 @@ fn held_text(held: &Held) -> String {
     text
 }
 
-fn plant(blocks: u32, output: Option<&Path>) -> Result<Answer, Failure> {
-    let text = blocks::plant_xml(blocks as usize);
+fn written(text: String, output: Option<&Path>) -> Result<Answer, Failure> {
     match output {
         None => words::answer(text)?,
         Some(path) => std::fs::write(path, text)

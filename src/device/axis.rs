@@ -31,6 +31,13 @@ impl Axis {
         }
     }
 
+    /// An axis at rest at `position`.
+    pub fn at(position: f64, limits: Limits, tolerance: f64) -> Axis {
+        let at = Motion { position, velocity: 0.0 };
+        let profile = Profile::at(limits, position);
+        Axis { profile, target: position, motor: at, load: at, ..Axis::new(limits, tolerance) }
+    }
+
     /// Within its tolerance of where it was last told to go, the tolerance included, and slower than 1 mm/s or 1 mrad/s.
     pub fn arrived(&mut self) -> bool {
         let is_there = self.is_there(self.motor());
@@ -56,6 +63,11 @@ impl Axis {
     /// The load's side: where the tool is.
     pub fn load(&self) -> Motion {
         if self.stages.is_nominal() { self.motor() } else { self.load }
+    }
+
+    /// See [`Device::rests`](super::Device::rests).
+    pub fn rests(&self) -> bool {
+        self.stages.is_nominal() && self.profile.has_ended()
     }
 
     /// It holds so many parts.

@@ -128,6 +128,10 @@ impl Device for CartesianRobot {
         visit(f64::from(self.tool.grip));
     }
 
+    fn rests(&self) -> bool {
+        self.axes.iter().all(Axis::rests)
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

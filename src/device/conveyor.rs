@@ -97,32 +97,36 @@ pub(super) struct Conveyor {
 impl Conveyor {
     /// A conveyor with this surface, at rest and switched off.
     pub(super) fn new(surface: Surface, parameters: &Parameters, instance: &str) -> Result<Conveyor, BuildError> {
-        let length = surface.length();
-        let barrier = |name: &'static str| {
-            let place = parameters.number(name);
-            match place {
-                p if p < 0.0 => Ok(None),
-                p if p <= length => Ok(Some(p)),
-                p => Err(misfit(instance, name, format!("stands at {p} m of a belt that is {length} m long"))),
-            }
-        };
-        let belt = Belt {
-            surface,
-            velocity: 0.0,
-            displacement: 0.0,
-            barriers: [barrier("barrierA")?, barrier("barrierB")?],
-            beam_height: parameters.number("beamHeight"),
-            transfer: if parameters.text("transfer") == "share" { Transfer::Share } else { Transfer::Most },
-            transfer_slip: 0.0,
-        };
         Ok(Conveyor {
             velocity_target: 0.0,
             motor_direction: 0.0,
             drive: Driven::new(drive_settings(parameters)),
-            belt,
+            belt: belt(surface, parameters, instance)?,
             beams: [false; 2],
         })
     }
+}
+
+/// The belt of a conveyor with this surface, at rest.
+pub(super) fn belt(surface: Surface, parameters: &Parameters, instance: &str) -> Result<Belt, BuildError> {
+    let length = surface.length();
+    let barrier = |name: &'static str| {
+        let place = parameters.number(name);
+        match place {
+            p if p < 0.0 => Ok(None),
+            p if p <= length => Ok(Some(p)),
+            p => Err(misfit(instance, name, format!("stands at {p} m of a belt that is {length} m long"))),
+        }
+    };
+    Ok(Belt {
+        surface,
+        velocity: 0.0,
+        displacement: 0.0,
+        barriers: [barrier("barrierA")?, barrier("barrierB")?],
+        beam_height: parameters.number("beamHeight"),
+        transfer: if parameters.text("transfer") == "share" { Transfer::Share } else { Transfer::Most },
+        transfer_slip: 0.0,
+    })
 }
 
 /// A ramped drive's parameters: those of both conveyors and of the motor.
@@ -179,6 +183,10 @@ impl Device for Conveyor {
         self.drive.state(visit);
         visit(self.belt.displacement);
         self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
+    }
+
+    fn rests(&self) -> bool {
+        self.drive.rests()
     }
 
     fn boxed(&self) -> Box<dyn Device> {

@@ -149,6 +149,12 @@ impl Cylinder {
         }
     }
 
+    /// See [`Device::rests`](super::Device::rests).
+    pub fn rests(&self) -> bool {
+        let is_held = self.valve == Drive::Hold || self.stroke.steady(self.valve) <= 0.0;
+        self.stages.is_nominal() && is_held
+    }
+
     /// It pushes so many parts.
     pub fn loaded(&mut self, parts: u32, queued: u32) {
         if self.stages.loaded(f64::from(parts), f64::from(queued)) {

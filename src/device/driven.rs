@@ -49,6 +49,11 @@ impl Driven {
         }
     }
 
+    /// See [`Device::rests`](super::Device::rests).
+    pub fn rests(&self) -> bool {
+        self.stages.is_nominal() && self.drive.rests()
+    }
+
     /// Whether it is enabled and ready. What switches late behind it, it does not know.
     pub fn ready(&self) -> bool {
         let follows_at_once = !self.stages.is_nominal() && self.settings.ready_delay == 0.0;

@@ -105,6 +105,10 @@ impl Device for EncoderMotor {
         self.drive.state(visit);
     }
 
+    fn rests(&self) -> bool {
+        self.drive.rests()
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

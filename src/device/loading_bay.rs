@@ -2,8 +2,8 @@
 
 use crate::device::law::schedule::Schedule;
 use crate::device::table::{ANGLE, LENGTH, LONGEST_M, LONGEST_S, TIME, choice, instance, integer, number, numbers};
-use crate::device::{BuildError, Device, Load, Role, Source, misfit, triple};
-use crate::plant::{Parameters, PartKind};
+use crate::device::{BuildError, Device, Load, Role, Source, misfit, part_kind, triple};
+use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
 const SIZES: (f64, f64) = (0.001, LONGEST_M);
@@ -98,11 +98,6 @@ pub(super) fn build(parameters: &Parameters, instance: &str, seed: u64) -> Resul
     let mut schedule = Schedule::new(first, interval, spread, instance, seed);
     schedule.advance(0.0, &mut source.due);
     Ok(Box::new(LoadingBay { schedule, source }))
-}
-
-/// `box` or `pallet`.
-fn part_kind(word: &str) -> PartKind {
-    if word == "pallet" { PartKind::Pallet } else { PartKind::Box }
 }
 
 impl Device for LoadingBay {

@@ -11,8 +11,10 @@ mod cartesian_robot;
 mod conveyor;
 mod conveyor_curve;
 mod cylinder;
+mod dispenser;
 mod driven;
 mod encoder_motor;
+mod inverter_conveyor;
 pub mod law;
 mod loading_bay;
 pub mod path;
@@ -20,6 +22,7 @@ mod pusher;
 mod sensor;
 mod servo_axis;
 mod servo_path;
+mod six_axis_robot;
 mod straight_conveyor;
 mod suction_cap_gripper;
 mod table;
@@ -43,6 +46,9 @@ pub static KINDS: &[&KindDescriptor] = &[
     &sensor::BOX,
     &sensor::PROXIMITY,
     &sensor::VISION,
+    &inverter_conveyor::KIND,
+    &dispenser::KIND,
+    &six_axis_robot::KIND,
 ];
 
 /// The boolean reports whose sensors look along a way: those for which [`Device::travel`] has an answer.
@@ -84,6 +90,9 @@ pub fn build(
         "kinetwin.BoxSensor" | "kinetwin.ProximitySensor" | "kinetwin.VisionSensor" => {
             sensor::build(kind.name, parameters, instance)
         }
+        "kinetwin.InverterConveyor" => inverter_conveyor::build(parameters, instance),
+        "kinetwin.Dispenser" => dispenser::build(parameters, instance),
+        "kinetwin.SixAxisRobot" => six_axis_robot::build(parameters, instance),
         other => unreachable!("{other:?} stands in no table of device kinds"),
     }
 }
@@ -97,6 +106,11 @@ fn misfit(instance: &str, parameter: &'static str, problem: impl Into<String>) -
 fn triple(parameters: &Parameters, name: &'static str, instance: &str) -> Result<[f64; 3], BuildError> {
     let numbers = parameters.numbers(name);
     numbers.try_into().map_err(|_| misfit(instance, name, format!("has {} numbers, not 3", numbers.len())))
+}
+
+/// `box` or `pallet`.
+fn part_kind(word: &str) -> PartKind {
+    if word == "pallet" { PartKind::Pallet } else { PartKind::Box }
 }
 
 /// One device.
@@ -129,6 +143,13 @@ pub trait Device: Send {
 
     /// A copy with its state.
     fn boxed(&self) -> Box<dyn Device>;
+
+    /// Whether time changes nothing about it any more, neither its state nor its reports nor its role, until it is told something
+    /// or the world about it changes: one more step apart, moving it does nothing. Who cannot be sure says no, and is visited
+    /// at every step.
+    fn rests(&self) -> bool {
+        false
+    }
 
     /// Where effects inside the device are put: the stages of the component so called, or of the whole device. `None`
     /// where there is no such component, or nothing inside that an effect could act on.
@@ -187,6 +208,8 @@ pub struct Surroundings {
     pub queued: u32,
     /// What a sensor that looks at parts sees.
     pub sensed: Sensed,
+    /// How many parts a source has put on its belt, their loads apart.
+    pub made: u32,
 }
 
 /// What a sensor sees.

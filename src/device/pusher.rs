@@ -128,6 +128,10 @@ impl Device for Pusher {
         self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
     }
 
+    fn rests(&self) -> bool {
+        self.cylinder.rests()
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

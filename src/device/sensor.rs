@@ -125,6 +125,10 @@ impl Device for Sensor {
         visit(self.sensed.distance.unwrap_or(-1.0));
     }
 
+    fn rests(&self) -> bool {
+        true
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

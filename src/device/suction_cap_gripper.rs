@@ -93,7 +93,9 @@ impl Device for SuctionCapGripper {
     }
 
     fn advance(&mut self, seconds: f64) {
-        if self.stages.is_nominal() {
+        if self.rests() {
+            // How long it has been so does not matter.
+        } else if self.stages.is_nominal() {
             self.vacuum.advance(seconds);
         } else {
             let mut stages = std::mem::take(&mut self.stages);
@@ -118,6 +120,10 @@ impl Device for SuctionCapGripper {
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         self.vacuum.state(visit);
         self.stages.state(visit);
+    }
+
+    fn rests(&self) -> bool {
+        self.stages.is_nominal() && self.vacuum.rests()
     }
 
     fn boxed(&self) -> Box<dyn Device> {

@@ -16,7 +16,7 @@ pub(super) const VELOCITY: &[Quantity] = &[Quantity::Velocity];
 pub(super) const ANGULAR_VELOCITY: &[Quantity] = &[Quantity::AngularVelocity];
 pub(super) const ACCELERATION: &[Quantity] = &[Quantity::Acceleration];
 pub(super) const ANGULAR_ACCELERATION: &[Quantity] = &[Quantity::AngularAcceleration];
-const ONE: &[Quantity] = &[Quantity::One];
+pub(super) const ONE: &[Quantity] = &[Quantity::One];
 
 /// The longest length, stroke or radius a plant may have, m.
 pub(super) const LONGEST_M: f64 = 1e3;
@@ -139,7 +139,7 @@ pub(super) const fn number(
     ParameterDescriptor { name, ty: ParameterType::Number { min, max }, quantities, default, summary }
 }
 
-/// Exactly `count` numbers, each from `min` to `max`, in SI units, both included.
+/// Exactly `count` numbers, or any where that is 0, each from `min` to `max`, in SI units, both included.
 pub(super) const fn numbers(
     name: &'static str,
     quantities: &'static [Quantity],
@@ -215,7 +215,7 @@ mod tests {
                     }
                     ParameterType::Numbers { count, min, max } => {
                         let list: Vec<f64> = text.split(';').map(|n| n.parse().expect(&place)).collect();
-                        assert_eq!(list.len(), count, "{place}");
+                        assert!(count == 0 || list.len() == count, "{place}");
                         assert!(list.iter().all(|number| (min..=max).contains(number)), "{place}");
                     }
                     ParameterType::Integer { min, max } => {

@@ -62,6 +62,10 @@ impl Device for UnloadingBay {
 
     fn state(&self, _visit: &mut dyn FnMut(f64)) {}
 
+    fn rests(&self) -> bool {
+        true
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

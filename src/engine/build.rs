@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
+use super::attention::{Attention, Visits};
 use super::binding::{CommandTable, ReportPort, Target};
 use super::floor::{Bay, BeltBody, CupsBody, Drain, Eye, Floor, PlateBody};
 use super::operate::Operated;
@@ -106,6 +107,7 @@ impl Engine {
                     reports,
                     body,
                     ties: Ties::default(),
+                    visits: Visits::default(),
                 });
             }
         }
@@ -129,7 +131,9 @@ impl Engine {
             owners: super::clash::registers_of(plant),
             scratch: vec![0.0; room],
             operated: Operated::default(),
+            attention: Attention::default(),
         };
+        engine.attend();
         engine.frames.resolve();
         engine.place_bodies();
         engine.put_initial(&plant.parts)?;
@@ -249,10 +253,7 @@ impl Builder {
                 self.floor.belts.push(belt_body(&instance.name, &pose, belt));
                 UnitBody::Belt(self.floor.belts.len() - 1)
             }
-            Role::Pushes(plate) => {
-                self.floor.plates.push(PlateBody::new(&instance.name, &pose, plate));
-                UnitBody::Plate(self.floor.plates.len() - 1)
-            }
+            Role::Pushes(plate) => UnitBody::Plate(self.floor.add_plate(PlateBody::new(&instance.name, &pose, plate))),
             Role::Moves(_) => {
                 let base = self.frames.add(None, pose);
                 let tool = self.frames.add(Some(base), DPose3::IDENTITY);
@@ -280,7 +281,7 @@ impl Builder {
                 }
                 Role::Takes(sink) => {
                     let belt = self.belt_of(instance, task)?;
-                    self.floor.drains.push(Drain { name: instance.name.clone(), belt, sink: *sink });
+                    self.floor.add_drain(Drain { name: instance.name.clone(), belt, sink: *sink });
                     unit.body = UnitBody::Drain;
                 }
                 _ => {}
@@ -311,7 +312,7 @@ impl Builder {
             }
             self.frames.add(Some(tool), offset)
         };
-        self.floor.cups.push(CupsBody {
+        let index = self.floor.add_cups(CupsBody {
             name: instance.name.clone(),
             rim: *self.frames.world(frame),
             reach: cups.reach,
@@ -319,7 +320,7 @@ impl Builder {
             always_sealed: cups.always_sealed,
             held: None,
         });
-        Ok(UnitBody::Cups(self.floor.cups.len() - 1, frame))
+        Ok(UnitBody::Cups(index, frame))
     }
 
     fn belt_of(&self, instance: &Instance, task: &Task) -> Result<usize, BuildError> {
@@ -349,5 +350,6 @@ fn belt_body(name: &str, pose: &DPose3, belt: &Belt) -> BeltBody {
         neighbours: Vec::new(),
         open: [true; 2],
         beams,
+        drains: Vec::new(),
     }
 }

@@ -1,17 +1,12 @@
 //! Prototypes whose shape a script builds, and parameters that a script gives values to.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::device::KINDS;
-use crate::plant::{Plant, load};
-use crate::prototype::source::Memory;
+use super::shape_fixture;
+use crate::plant::Plant;
 use crate::scene::Scene;
 
-const META: &str = r#"<prototype uuid="4ff5367a-4b69-48fb-9b2a-71e77d075c71" name="Gate" version="1">
-  <property name="displayName" value="Gate" type="string"/>
-  <property name="vendor" value="test" type="string"/>
-  <property name="generator" value="builder.js" type="string"/>
+const INSIDE: &str = r#"  <property name="generator" value="builder.js" type="string"/>
   <parameter name="width" type="double" value="800" unit="mm">
     <property name="affectGeometry" value="true" type="boolean"/>
     <property name="constraints" value=">0, &lt;3000" type="string"/>
@@ -21,13 +16,7 @@ const META: &str = r#"<prototype uuid="4ff5367a-4b69-48fb-9b2a-71e77d075c71" nam
   </parameter>
   <parameter name="rise" type="double" value="0" unit="m">
     <property name="affectGeometry" value="true" type="boolean"/>
-  </parameter>
-  <parameter name="speed" type="double" value="0.5" unit="m/s"/>
-  <logics type="kinetwin.Pusher">
-    <param name="stroke" type="double">${rise}</param>
-    <param name="extendSpeed" type="double">${speed}</param>
-  </logics>
-</prototype>"#;
+  </parameter>"#;
 
 const BUILDER: &str = "// A gate that rises.
 function build({ width, posts, rise }) {
@@ -48,20 +37,12 @@ const PLANT: &str = r#"<plant name="p">
   <instance name="D" prototype="Gate"><property name="rise" value="2 m"/></instance>
 </plant>"#;
 
+/// The model with some of its prototype's files changed.
 fn model(changes: &[(&str, &str)]) -> Result<Plant, String> {
-    let mut files: BTreeMap<String, String> = [
-        ("m/plant.xml", PLANT),
-        ("m/prototypes/Gate/prototype.xml", META),
-        ("m/prototypes/Gate/builder.js", BUILDER),
-        ("m/prototypes/Gate/customizer.js", CUSTOMIZER),
-    ]
-    .into_iter()
-    .map(|(path, text)| (path.to_owned(), text.to_owned()))
-    .collect();
-    for (path, text) in changes {
-        files.insert(format!("m/prototypes/Gate/{path}"), (*text).to_owned());
-    }
-    load(&Memory(files), "m", KINDS).map_err(|error| error.to_string())
+    let meta = shape_fixture::pusher("Gate", INSIDE, "${rise}");
+    let files = [("prototype.xml", meta.as_str()), ("builder.js", BUILDER), ("customizer.js", CUSTOMIZER)];
+    let files: Vec<(&str, &str)> = files.into_iter().chain(changes.iter().copied()).collect();
+    shape_fixture::model(PLANT, "Gate", &files)
 }
 
 #[test]
@@ -115,7 +96,8 @@ fn a_script_that_is_wrong_is_told_with_its_line_and_nothing_is_loaded() {
     check("builder.js", "function build", "function construct", "1:1: there is no function build");
     check("customizer.js", "rise:", "raise:", "1:1: customize gave \"raise\"");
     check("customizer.js", "parameters.width", "parameters.width.mm.x", "2:1: ");
-    let error = model(&[("prototype.xml", &META.replace("builder.js", "other.js"))]).expect_err("no script");
+    let other = shape_fixture::pusher("Gate", &INSIDE.replace("builder.js", "other.js"), "${rise}");
+    let error = model(&[("prototype.xml", &other)]).expect_err("no script");
     assert!(error.contains("there is no file m/prototypes/Gate/other.js"), "{error}");
     let error = model(&[("customizer.js", "function customize() { return { width: 4 }; }")]).expect_err("too wide");
     assert!(error.contains("is out of range: expected <3000"), "{error}");

@@ -7,7 +7,7 @@ use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
 const HERE: [f64; 4] = [0.0; 4];
 
 /// An `<effect>` with numbers, and with the property `with` where that is not empty.
-fn spec(place: EffectPlace, kind: &str, numbers: &[(&str, f64)], with: &str) -> EffectSpec {
+pub(super) fn spec(place: EffectPlace, kind: &str, numbers: &[(&str, f64)], with: &str) -> EffectSpec {
     let number = |(name, value): &(&str, f64)| ((*name).to_owned(), ParameterValue::Number(*value));
     let mut parameters: std::collections::BTreeMap<_, _> = numbers.iter().map(number).collect();
     if !with.is_empty() {

@@ -2,11 +2,15 @@
 //!
 //! One [`Engine::tick`] is one step, in phases: **actuators** take the commands, the state as it is now becomes the **report**,
 //! **joints** move, **parts** move with them, **collisions** are looked for, **sensors** look at what came of it. Step k takes the commands with t ≤ kT and
-//! reports the state at kT, immediate booleans already following their command; then it moves over [kT, (k+1)T).
+//! reports the state at kT, immediate booleans already following their command; then it moves over [kT, (k+1)T). Devices that
+//! rest and that nothing moves near are passed over, which changes nothing but what a step costs.
 //!
 //! Invariant: no clock, no IO, no thread, no hash map to iterate. The same plant, step, seed and the same inputs at the same
 //! steps give bit-identical states ([`Engine::state_hash`]), in whatever time mode the engine is run.
 
+mod attention;
+#[cfg(test)]
+mod attention_tests;
 #[cfg(test)]
 mod bench;
 mod binding;
@@ -22,6 +26,8 @@ mod load;
 mod operate;
 #[cfg(test)]
 mod operate_tests;
+#[cfg(test)]
+mod shape_fixture;
 mod stage;
 #[cfg(test)]
 mod stage_tests;
@@ -44,6 +50,7 @@ use crate::prototype::kind::KindDescriptor;
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
 use crate::value::Value;
+use attention::{Attention, Visits};
 use binding::{CommandTable, ReportPort};
 use clash::Watch;
 use floor::Floor;
@@ -71,6 +78,7 @@ pub struct Engine {
     scratch: Vec<f64>,
     /// What an operator has done.
     operated: Operated,
+    attention: Attention,
 }
 
 /// A device with what binds it to the registers and to the floor.
@@ -83,6 +91,7 @@ struct Unit {
     reports: Vec<ReportPort>,
     body: UnitBody,
     ties: Ties,
+    visits: Visits,
 }
 
 /// A gripper that hangs from a robot. It draws while its own `suctionOn` is true or the robot's `grip` is.
@@ -153,9 +162,11 @@ impl Engine {
     pub fn tick_for(&mut self, inputs: &[(RegisterId, Value)], span: Duration) -> &[Value] {
         self.actuators(inputs);
         self.report();
+        self.doze();
         self.joints(span);
         self.parts_phase(span);
         self.collisions_phase();
+        self.wake_stirred();
         self.sensors();
         self.steps += 1;
         &self.registers
@@ -203,9 +214,12 @@ impl Engine {
 
     /// Hands the robots' `grip` on to the grippers that hang from them.
     fn close_mounted(&mut self) {
-        for index in 0..self.mounts.len() {
+        for awake in 0..self.attention.awake.len() {
+            // A robot that is awake has woken what hangs from it.
+            let unit = self.attention.awake[awake] as usize;
+            let Some((_, index)) = self.units[unit].visits.hangs else { continue };
             let Mount { robot, gripper, suction, register, is_closed } = self.mounts[index];
-            let grips = matches!(self.units[robot].device.role(), Role::Moves(tool) if tool.grip);
+            let grips = self.grips(robot);
             if grips || is_closed {
                 let own = register.is_some_and(|register| self.registers[register.index()] == Value::Bool(true));
                 self.units[gripper].device.command(suction, f64::from(own || grips));
@@ -215,7 +229,8 @@ impl Engine {
     }
 
     fn report(&mut self) {
-        for unit in &mut self.units {
+        for &awake in &self.attention.awake {
+            let unit = &mut self.units[awake as usize];
             if unit.reports.is_empty() {
                 continue;
             }
@@ -231,8 +246,8 @@ impl Engine {
     fn joints(&mut self, span: Duration) {
         let seconds = span.as_secs_f64();
         self.share_supplies();
-        for unit in &mut self.units {
-            unit.device.advance(seconds);
+        for &awake in &self.attention.awake {
+            self.units[awake as usize].device.advance(seconds);
         }
         self.now += span;
         self.place_bodies();
@@ -240,7 +255,7 @@ impl Engine {
 
     /// Tells devices that feel it how many others on their supply move; what all do before any of them moves.
     fn share_supplies(&mut self) {
-        for index in 0..self.units.len() {
+        for &index in &self.attention.supplied {
             let Some(others) = &self.units[index].ties.supply else { continue };
             let moving = others.iter().map(|other| self.units[*other].device.moving()).sum();
             self.units[index].device.share(moving);
@@ -249,8 +264,8 @@ impl Engine {
 
     /// Tells the floor where the devices are now.
     fn place_bodies(&mut self) {
-        let mut has_tool = false;
-        for unit in &self.units {
+        for &awake in &self.attention.awake {
+            let unit = &self.units[awake as usize];
             match (unit.device.role(), unit.body) {
                 (Role::Carries(belt), UnitBody::Belt(index)) => {
                     self.floor.belts[index].displacement = belt.displacement;
@@ -263,7 +278,7 @@ impl Engine {
                     let place = DVec3::from_array(tool.position);
                     let local = DPose3::from_parts(place, DQuat::from_rotation_z(tool.rotation));
                     self.frames.set_local(frame, local);
-                    has_tool = true;
+                    self.frames.resolve_one(frame);
                 }
                 (Role::Holds(cups), UnitBody::Cups(index, _)) => self.floor.cups[index].vacuum = cups.vacuum,
                 (Role::Makes(source), UnitBody::Bay(index)) => {
@@ -274,16 +289,15 @@ impl Engine {
                 _ => {}
             }
         }
-        if has_tool {
-            self.frames.resolve();
-        }
-        for unit in &self.units {
-            if let UnitBody::Cups(index, frame) = unit.body {
+        // What hangs from a robot is where that is now.
+        for &awake in &self.attention.awake {
+            if let UnitBody::Cups(index, frame) = self.units[awake as usize].body {
+                self.frames.resolve_one(frame);
                 self.floor.cups[index].rim = *self.frames.world(frame);
             }
         }
         if let Some(stage) = &mut self.stage {
-            stage.follow(&self.units);
+            stage.follow(&self.units, &self.attention.awake);
         }
     }
 
@@ -292,12 +306,16 @@ impl Engine {
     }
 
     fn sensors(&mut self) {
-        for unit in &mut self.units {
+        for &awake in &self.attention.awake {
+            let unit = &mut self.units[awake as usize];
             let mut surroundings = match unit.body {
                 UnitBody::Belt(index) => self.floor.at_belt(index),
                 UnitBody::Plate(index) => self.floor.at_plate(index),
                 UnitBody::Cups(index, _) => self.floor.about_cups(index),
                 UnitBody::Eye(index) => Surroundings { sensed: self.floor.seen_by(index), ..Surroundings::default() },
+                UnitBody::Bay(index) => {
+                    Surroundings { made: self.floor.bays[index].made as u32, ..Surroundings::default() }
+                }
                 _ if unit.ties.counts_parts => Surroundings::default(),
                 _ => continue,
             };
@@ -307,6 +325,10 @@ impl Engine {
                     UnitBody::Plate(index) => (self.floor.plates[index].pushed, 0),
                     _ => (self.floor.held_by(&unit.ties.cups), 0),
                 };
+            }
+            if unit.visits.seen != surroundings {
+                unit.visits.seen = surroundings;
+                unit.visits.stir();
             }
             unit.device.sense(&surroundings);
         }

@@ -106,6 +106,7 @@ pub(super) struct Operated {
 
 /// Command ports that are 0 for a drive without power. Those of a robot hold where it is.
 const POWERED: [&str; 6] = ["velocityTarget", "motorDirection", "command", "speedTarget", "enable", "torqueEnabled"];
+const JOINTS: [&str; 6] = ["J1Target", "J2Target", "J3Target", "J4Target", "J5Target", "J6Target"];
 const AXES: [&str; 4] = ["XTarget", "YTarget", "ZTarget", "RTarget"];
 
 impl Operated {
@@ -142,6 +143,7 @@ impl Engine {
     /// # Errors
     /// It cannot be done; nothing has changed.
     pub fn operate(&mut self, act: &Act) -> Result<(), ActError> {
+        self.wake_all();
         match act {
             Act::Force { signal, value } => self.force(*signal, value),
             Act::Release { signal } => self.let_loose(*signal, false),
@@ -227,8 +229,10 @@ impl Engine {
     /// Sets a command's register and hands it to the devices.
     pub(super) fn set_command(&mut self, register: RegisterId, value: Value, number: f64) {
         self.registers[register.index()] = value;
-        for target in self.commands.targets(register) {
-            if self.operated.dead.is_empty() || !self.operated.is_dead(*target) {
+        for index in 0..self.commands.targets(register).len() {
+            let target = self.commands.targets(register)[index];
+            if self.operated.dead.is_empty() || !self.operated.is_dead(target) {
+                self.wake(target.unit);
                 self.units[target.unit].device.command(target.port, number);
             }
         }
@@ -257,6 +261,14 @@ impl Engine {
             let port = |name: &&str| unit.kind.port(name);
             let powered: Vec<(usize, f64)> = POWERED.iter().filter_map(port).map(|port| (port, 0.0)).collect();
             let held = match unit.device.role() {
+                Role::Moves(_) if unit.kind.port("place").is_some() => {
+                    // An arm's joints stay where they are, and no place calls it.
+                    let mut angles = Vec::new();
+                    unit.device.joints(&mut |_, angle| angles.push(angle));
+                    let joints = JOINTS.iter().zip(angles).map(|(name, angle)| (*name, angle));
+                    let calm = joints.chain([("place", 0.0)]);
+                    calm.filter_map(|(name, value)| Some((unit.kind.port(name)?, value))).collect()
+                }
                 Role::Moves(tool) => {
                     let [x, y, z] = tool.position;
                     let places = AXES.iter().zip([x, y, z, tool.rotation]);

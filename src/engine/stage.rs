@@ -9,29 +9,22 @@ use crate::scene::{NodeId, Poses, Scene};
 /// A scene that follows the devices.
 pub(super) struct Stage {
     poses: Poses,
-    drives: Vec<Drive>,
+    /// Of each unit the frames of its joints, in the order in which it gives them; none where it has none.
+    joints: Vec<Vec<Option<NodeId>>>,
     /// Of each beam of the scene: the unit that it belongs to, and whether it is its barrier A or B.
     beams: Vec<Option<(usize, usize)>>,
-}
-
-/// A unit that has joints, and their frames in the order in which it gives them.
-struct Drive {
-    unit: usize,
-    frames: Vec<Option<NodeId>>,
 }
 
 impl Stage {
     fn new(plant: &Plant, units: &[Unit], scene: Arc<Scene>) -> Stage {
         let of_unit: Vec<usize> =
             plant.instances.iter().enumerate().flat_map(|(index, it)| it.tasks.iter().map(move |_| index)).collect();
-        let mut drives = Vec::new();
+        let mut joints = Vec::with_capacity(units.len());
         for (index, unit) in units.iter().enumerate() {
             let instance = &plant.instances[of_unit[index]].name;
             let mut frames = Vec::new();
             unit.device.joints(&mut |name, _| frames.push(scene.find_joint(&format!("{instance}.{name}"))));
-            if frames.iter().any(Option::is_some) {
-                drives.push(Drive { unit: index, frames });
-            }
+            joints.push(if frames.iter().any(Option::is_some) { frames } else { Vec::new() });
         }
         let unit_of = |instance: usize| {
             let has_beams = |unit: &usize| matches!(units[*unit].body, UnitBody::Belt(_) | UnitBody::Plate(_));
@@ -42,18 +35,22 @@ impl Stage {
             .iter()
             .map(|beam| Some((unit_of(scene.node(beam.node).instance)?, usize::from(beam.name.ends_with('B')))))
             .collect();
-        Stage { poses: Poses::new(scene), drives, beams }
+        Stage { poses: Poses::new(scene), joints, beams }
     }
 
     pub fn poses(&self) -> &Poses {
         &self.poses
     }
 
-    /// Follows the devices to where they are now.
-    pub fn follow(&mut self, units: &[Unit]) {
-        for Drive { unit, frames } in &self.drives {
+    /// Follows these of the devices to where they are now.
+    pub fn follow(&mut self, units: &[Unit], moved: &[u32]) {
+        for &unit in moved {
+            let frames = &self.joints[unit as usize];
+            if frames.is_empty() {
+                continue;
+            }
             let mut frames = frames.iter();
-            units[*unit].device.joints(&mut |_, value| {
+            units[unit as usize].device.joints(&mut |_, value| {
                 if let Some(Some(frame)) = frames.next() {
                     self.poses.set(*frame, value);
                 }
@@ -68,7 +65,8 @@ impl Engine {
     /// depends on it.
     pub fn show(&mut self, plant: &Plant, scene: Arc<Scene>) {
         let mut stage = Stage::new(plant, &self.units, scene);
-        stage.follow(&self.units);
+        let all: Vec<u32> = (0..self.units.len() as u32).collect();
+        stage.follow(&self.units, &all);
         self.stage = Some(stage);
     }
 

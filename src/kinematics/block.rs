@@ -26,6 +26,11 @@ impl Bounds {
         Bounds { low: self.low - margin, high: self.high + margin }
     }
 
+    /// Whether `other` lies wholly in it.
+    pub fn holds(&self, other: &Bounds) -> bool {
+        other.low.cmpge(self.low).all() && other.high.cmple(self.high).all()
+    }
+
     /// Whether the two share a point.
     pub fn meet(&self, other: &Bounds) -> bool {
         self.low.x <= other.high.x

@@ -13,7 +13,7 @@ pub struct Frame {
     pub parent: Option<FrameId>,
     /// Its pose in its parent.
     pub local: DPose3,
-    /// Its pose in the world, as of the last [`FrameTree::resolve`].
+    /// Its pose in the world, as of the last resolution.
     pub world: DPose3,
 }
 
@@ -32,7 +32,8 @@ impl FrameTree {
         FrameId(self.frames.len() as u32 - 1)
     }
 
-    /// Moves a frame within its parent; its world pose and those under it follow with the next [`FrameTree::resolve`].
+    /// Moves a frame within its parent; its world pose and those under it follow with the next [`FrameTree::resolve`], or one by
+    /// one with [`FrameTree::resolve_one`].
     pub fn set_local(&mut self, id: FrameId, local: DPose3) {
         self.frames[id.0 as usize].local = local;
     }
@@ -45,6 +46,12 @@ impl FrameTree {
         }
     }
 
+    /// Computes the world pose of one frame from that of its parent.
+    pub fn resolve_one(&mut self, id: FrameId) {
+        let Frame { parent, local, .. } = self.frames[id.0 as usize];
+        self.frames[id.0 as usize].world = self.under(parent, local);
+    }
+
     fn under(&self, parent: Option<FrameId>, local: DPose3) -> DPose3 {
         match parent {
             Some(parent) => self.frames[parent.0 as usize].world * local,
@@ -52,7 +59,7 @@ impl FrameTree {
         }
     }
 
-    /// The pose of a frame in the world, as of the last [`FrameTree::resolve`].
+    /// The pose of a frame in the world, as of the last resolution.
     pub fn world(&self, id: FrameId) -> &DPose3 {
         &self.frames[id.0 as usize].world
     }

@@ -7,6 +7,7 @@
 mod beam;
 mod block;
 mod chain;
+mod denavit_hartenberg;
 mod frame;
 mod joint;
 mod polygon;
@@ -15,6 +16,7 @@ mod surface;
 pub use beam::Beam;
 pub use block::{Block, Bounds, separation};
 pub use chain::{Chain, OutOfReach};
+pub use denavit_hartenberg::DenavitHartenberg;
 pub use frame::{Frame, FrameId, FrameTree};
 pub use joint::{Joint, JointKind};
 pub use parry3d_f64::glamx::{DPose3, DQuat, DVec2, DVec3};

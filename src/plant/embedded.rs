@@ -12,7 +12,7 @@ macro_rules! embedded {
     };
 }
 
-/// Every XML file below `models/`; a test sees to it that none is forgotten.
+/// Every XML file and every script below `models/`; a test sees to it that none is forgotten.
 static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/BoxSensor/avatar.xml",
     "models/catalogue/BoxSensor/prototype.xml",
@@ -20,8 +20,12 @@ static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/CartesianRobot/prototype.xml",
     "models/catalogue/ConveyorCurve/avatar.xml",
     "models/catalogue/ConveyorCurve/prototype.xml",
+    "models/catalogue/Dispenser/avatar.xml",
+    "models/catalogue/Dispenser/prototype.xml",
     "models/catalogue/EncoderMotor/avatar.xml",
     "models/catalogue/EncoderMotor/prototype.xml",
+    "models/catalogue/InverterConveyor/avatar.xml",
+    "models/catalogue/InverterConveyor/prototype.xml",
     "models/catalogue/LoadingBay/avatar.xml",
     "models/catalogue/LoadingBay/prototype.xml",
     "models/catalogue/ProximitySensor/avatar.xml",
@@ -30,6 +34,8 @@ static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/Pusher/prototype.xml",
     "models/catalogue/ServoAxis/avatar.xml",
     "models/catalogue/ServoAxis/prototype.xml",
+    "models/catalogue/SixAxisRobot/avatar.xml",
+    "models/catalogue/SixAxisRobot/prototype.xml",
     "models/catalogue/StraightConveyor/avatar.xml",
     "models/catalogue/StraightConveyor/prototype.xml",
     "models/catalogue/SuctionCapGripper/avatar.xml",
@@ -40,6 +46,21 @@ static FILES: &[(&str, &str)] = embedded![
     "models/catalogue/VisionSensor/prototype.xml",
     "models/curve/plant.xml",
     "models/depalletizer/plant.xml",
+    "models/packaging/plant.xml",
+    "models/packaging/prototypes/CollaborativeRobot/avatar.xml",
+    "models/packaging/prototypes/CollaborativeRobot/prototype.xml",
+    "models/packaging/prototypes/Conveyor/avatar.xml",
+    "models/packaging/prototypes/Conveyor/builder.js",
+    "models/packaging/prototypes/Conveyor/prototype.xml",
+    "models/packaging/prototypes/Denester/avatar.xml",
+    "models/packaging/prototypes/Denester/builder.js",
+    "models/packaging/prototypes/Denester/prototype.xml",
+    "models/packaging/prototypes/Exit/avatar.xml",
+    "models/packaging/prototypes/Exit/builder.js",
+    "models/packaging/prototypes/Exit/prototype.xml",
+    "models/packaging/prototypes/Sealer/avatar.xml",
+    "models/packaging/prototypes/Sealer/builder.js",
+    "models/packaging/prototypes/Sealer/prototype.xml",
     "models/r001/plant.xml",
     "models/r001/prototypes/Block/avatar.xml",
     "models/r001/prototypes/Block/prototype.xml",

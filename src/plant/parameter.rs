@@ -59,7 +59,7 @@ pub(super) fn parse(
         }
         ParameterType::Numbers { count, min, max } => {
             let numbers = parse_numbers(text, unit, &quantities)?;
-            if numbers.len() != count {
+            if count > 0 && numbers.len() != count {
                 return Err(refused(format!("{text:?} holds {} numbers", numbers.len()), format!("expected {count}")));
             }
             let numbers: Result<Vec<f64>, Refused> = numbers.into_iter().map(|n| in_range(n, min, max)).collect();

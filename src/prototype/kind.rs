@@ -74,7 +74,7 @@ pub enum ParameterType {
     Choice(&'static [&'static str]),
     /// Any text.
     Text,
-    /// A list of exactly `count` numbers of one unit, separated by `;` or blanks, each kept in SI.
+    /// A list of exactly `count` numbers of one unit, or of any where that is 0, separated by `;` or blanks, each kept in SI.
     Numbers {
         count: usize,
         min: f64,

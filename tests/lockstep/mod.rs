@@ -157,7 +157,7 @@ impl Lockstep {
         connector.init(&plant.signal_map);
         connector.connect();
         let (bank, io) = bank::new(&plant.signal_map);
-        let rates = Rates { high: Duration::from_millis(20), low: Duration::from_millis(500) };
+        let rates = Rates { high: plant.adapter.high_frequency, low: plant.adapter.low_frequency };
         let exchange = Exchange::new(connector, io, NoWitness, rates);
         self.simulations.push(Simulation { engine, plant, bank, exchange, inputs: Vec::new(), received });
         self.simulations.len() - 1

@@ -1,16 +1,20 @@
 //! One function block per device type. A block knows its device by the device's signals alone: it turns changes of inputs
 //! into events (and writes them to the log), and requests into changes of outputs.
 
+mod arm;
 mod axis;
 mod conveyor;
 mod gripper;
+mod inverter;
 mod motor;
 mod pusher;
 mod robot;
 
+pub use arm::SixAxisRobotFb;
 pub use axis::ServoAxisFb;
 pub use conveyor::{ConveyorFb, Travel};
 pub use gripper::SuctionCapGripperFb;
+pub use inverter::{InverterConveyorFb, SpeedProfile};
 pub use motor::EncoderMotorFb;
 pub use pusher::PusherFb;
 pub use robot::{CartesianRobotFb, Target};

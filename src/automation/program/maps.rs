@@ -14,6 +14,7 @@ macro_rules! maps {
 static MAPS: &[(&str, &str)] = maps![
     "curve",
     "depalletizer",
+    "packaging",
     "r001",
     "rig",
     "rig-toleranced",

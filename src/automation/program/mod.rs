@@ -3,6 +3,7 @@
 mod blocks;
 pub mod depalletizer;
 mod maps;
+pub mod packaging;
 pub mod rig;
 
 pub use maps::{map_of, plants};
@@ -45,6 +46,10 @@ impl Control {
                 }
                 "depalletizer" => {
                     let program = depalletizer::program(&mut binder);
+                    Box::new(binder.finish(program)?)
+                }
+                "packaging" => {
+                    let program = packaging::program(&mut binder);
                     Box::new(binder.finish(program)?)
                 }
                 "r001" => Box::new(blocks::Blocks::new(map)),

@@ -64,6 +64,12 @@ impl Drive {
         self.enabled && self.waited >= self.settings.ready_delay - SAME_INSTANT_S
     }
 
+    /// Whether it stands and will stand until a command comes.
+    pub fn rests(&self) -> bool {
+        let is_content = if self.ready() { self.reference == 0.0 } else { !self.enabled };
+        self.ramp.velocity == 0.0 && is_content
+    }
+
     /// Present speed.
     pub fn velocity(&self) -> f64 {
         self.ramp.velocity

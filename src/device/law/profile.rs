@@ -53,6 +53,11 @@ impl Profile {
         Profile { limits, target: 0.0, segments: [Segment::default(); 3], elapsed: Sum::default() }
     }
 
+    /// An axis at rest at `position`.
+    pub fn at(limits: Limits, position: f64) -> Profile {
+        Profile { target: position, ..Profile::new(limits) }
+    }
+
     /// An axis that is at `position` with `velocity` and heads for `target`.
     pub fn under_way(limits: Limits, position: f64, velocity: f64, target: f64) -> Profile {
         let mut profile = Profile::new(limits);
@@ -83,7 +88,14 @@ impl Profile {
 
     /// Moves by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
-        self.elapsed.add(seconds);
+        if !self.has_ended() {
+            self.elapsed.add(seconds);
+        }
+    }
+
+    /// Whether it is at its target for good.
+    pub fn has_ended(&self) -> bool {
+        self.now().is_none()
     }
 
     /// Present position: the target itself once the plan has ended.

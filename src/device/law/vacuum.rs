@@ -89,6 +89,12 @@ impl Vacuum {
         }
     }
 
+    /// Whether it stays as it is, however long that lasts, until suction, blowing or seal change.
+    pub fn rests(&self) -> bool {
+        let is_settled = self.held == self.suction && self.hold_time.is_infinite();
+        self.held == self.holds() && (self.blow || !self.sealed || is_settled)
+    }
+
     /// Moves by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
         if seconds > 0.0 {

@@ -1,8 +1,8 @@
 //! Bays: the world outside, which puts parts on belts and takes them off.
 
-use super::Floor;
 use super::contact::overlap;
 use super::part::{Slot, Support};
+use super::{BeltBody, Floor};
 use crate::device::{Load, Place, Sink, Source};
 use crate::kinematics::{Along, Block, DVec2, DVec3, Upright};
 use crate::plant::PartKind;
@@ -116,12 +116,12 @@ impl Floor {
     /// Gives a part to the bay whose place it has come to or passed, if there is one. Returns whether it has gone for good.
     pub(super) fn take(&mut self, slot: Slot, belt: usize, passage: Passage) -> bool {
         let kind = self.parts.get(slot).kind;
-        let matching = |drain: &Drain| {
-            drain.belt == belt
-                && drain.sink.kind.is_none_or(|wanted| wanted == kind)
-                && has_come(drain.sink.place, self.belts[belt].surface.length(), passage)
+        let BeltBody { surface, drains, .. } = &self.belts[belt];
+        let matching = |index: &&usize| {
+            let Sink { place, kind: taken, .. } = self.drains[**index].sink;
+            taken.is_none_or(|wanted| wanted == kind) && has_come(place, surface.length(), passage)
         };
-        let Some(sink) = self.drains.iter().position(matching) else { return false };
+        let Some(&sink) = drains.iter().find(matching) else { return false };
         let left = self.drains[sink].sink.delay;
         if left > 0.0 {
             self.parts.set_support(slot, Support::Sink { sink, left });

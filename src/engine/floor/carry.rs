@@ -61,9 +61,12 @@ impl Scratch {
         })
     }
 
-    /// Whether the body of this key is there and does not move in this step.
+    /// Whether the body of this key is there and does not move in this step. A plate that is not listed sleeps.
     pub fn rests(&self, key: u64) -> bool {
-        self.bodies.iter().any(|body| body.key == key && !body.moves)
+        match self.bodies.iter().find(|body| body.key == key) {
+            Some(body) => !body.moves,
+            None => key > u64::MAX / 2,
+        }
     }
 }
 
@@ -75,6 +78,12 @@ impl Floor {
     pub(super) fn carry(&mut self) {
         let mut scratch = std::mem::take(&mut self.carried);
         self.gather(&mut scratch.bodies);
+        for body in scratch.bodies.iter().filter(|body| body.moves) {
+            if let BodyId::Group(slot) = body.id {
+                self.stir_ahead(slot, &body.bounds, body.motion);
+            }
+        }
+        self.gather_plates(&mut scratch.bodies);
         pair_up(&scratch.bodies, &mut scratch.pairs);
         self.hold_back(&mut scratch);
         for body in &scratch.bodies {
@@ -104,7 +113,12 @@ impl Floor {
             let (id, key, from) = (BodyId::Group(slot), part.number, part.block.upright().place.truncate());
             bodies.push(BodyState { id, key, from, bounds, motion, share: 1.0, moves });
         }
-        for (index, plate) in self.plates.iter().enumerate() {
+    }
+
+    /// Adds the plates; those that sleep are near nobody who moves.
+    fn gather_plates(&self, bodies: &mut Vec<BodyState>) {
+        for &index in &self.awake_plates {
+            let plate = &self.plates[index];
             bodies.push(BodyState {
                 id: BodyId::Plate(index),
                 key: u64::MAX - index as u64,

@@ -8,7 +8,8 @@ impl Floor {
     /// Moves what hangs from cups to where they are now, takes what is sealed where there is vacuum, lets go where there is
     /// none any more.
     pub(super) fn hold(&mut self) {
-        for index in 0..self.cups.len() {
+        for awake in 0..self.awake_cups.len() {
+            let index = self.awake_cups[awake];
             let cups = &self.cups[index];
             match cups.held {
                 Some((slot, pose)) if cups.vacuum => self.follow(slot, Upright::from_pose(&(cups.rim * pose))),

@@ -18,6 +18,7 @@ mod part;
 mod push;
 mod rest;
 mod sense;
+mod sleep;
 mod tally;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,7 @@ pub(super) use operate::PartRequest;
 use part::Parts;
 pub(super) use part::Slot;
 pub(super) use part::Support;
+pub(super) use sleep::Listed;
 pub(super) use tally::kind_name;
 pub use tally::{Incident, IncidentKind, PartCounts};
 
@@ -51,6 +53,8 @@ pub(super) struct BeltBody {
     /// Whether nothing follows at its start, and at its end.
     pub open: [bool; 2],
     pub beams: [Option<Beam>; 2],
+    /// The unloading bays that take parts off it.
+    pub drains: Vec<usize>,
 }
 
 /// A pusher's plate, as parts see it.
@@ -127,6 +131,10 @@ pub(super) struct Floor {
     /// Parts that moved in this step by something other than a belt.
     handled: Vec<Slot>,
     carried: carry::Scratch,
+    pub sleepers: sleep::Sleepers,
+    /// The plates, and the cups, that are visited; in their order.
+    awake_plates: Vec<usize>,
+    awake_cups: Vec<usize>,
 }
 
 impl Floor {
@@ -145,6 +153,26 @@ impl Floor {
     /// Counts, as of now.
     pub fn counts(&self) -> PartCounts {
         self.tally.counts(&self.parts)
+    }
+
+    /// Adds a plate and returns its index.
+    pub fn add_plate(&mut self, plate: PlateBody) -> usize {
+        self.awake_plates.push(self.plates.len());
+        self.plates.push(plate);
+        self.plates.len() - 1
+    }
+
+    /// Adds cups and returns their index.
+    pub fn add_cups(&mut self, cups: CupsBody) -> usize {
+        self.awake_cups.push(self.cups.len());
+        self.cups.push(cups);
+        self.cups.len() - 1
+    }
+
+    /// Adds an unloading bay, whose belt is there.
+    pub fn add_drain(&mut self, drain: Drain) {
+        self.belts[drain.belt].drains.push(self.drains.len());
+        self.drains.push(drain);
     }
 
     /// Finds out which belts follow which; once, when all are there.

@@ -39,6 +39,8 @@ pub(in crate::engine) struct Part {
     pub riders: Vec<Slot>,
     /// The world's box about it and all that stands on it.
     pub reach: Bounds,
+    /// Where its group may move without waking anybody that it has not woken.
+    pub cleared: Bounds,
 }
 
 /// All parts.
@@ -49,13 +51,18 @@ pub(in crate::engine) struct Parts {
     /// Parts that stand on no other part, in the order of their slots.
     roots: Vec<Slot>,
     last_number: u64,
+    /// Where something has come, gone or moved that was not cleared.
+    pub stirred: Vec<Bounds>,
 }
 
 impl Parts {
     /// Puts a part in. What it stands on learns of it.
     pub fn insert(&mut self, kind: PartKind, block: Block, support: Support) -> Slot {
         self.last_number += 1;
-        let part = Part { number: self.last_number, kind, block, support, riders: Vec::new(), reach: *block.bounds() };
+        let reach = *block.bounds();
+        let cleared = Bounds::EMPTY;
+        let part = Part { number: self.last_number, kind, block, support, riders: Vec::new(), reach, cleared };
+        self.stirred.push(reach);
         let slot = match self.free.pop() {
             Some(slot) => slot,
             None => {
@@ -71,6 +78,7 @@ impl Parts {
     /// Takes a part out, with all that stands on it; hands each to `gone`.
     pub fn remove(&mut self, slot: Slot, gone: &mut dyn FnMut(Part)) {
         self.leave(slot);
+        self.stirred.push(self.get(slot).reach);
         self.drop_group(slot, gone);
     }
 
@@ -142,6 +150,16 @@ impl Parts {
         }
     }
 
+    /// From now on the group of `slot` may move in `region` without waking anybody.
+    pub fn clear(&mut self, slot: Slot, region: Bounds) {
+        self.get_mut(slot).cleared = region;
+    }
+
+    /// From now on nobody may move anywhere without asking.
+    pub fn clear_none(&mut self) {
+        self.slots.iter_mut().flatten().for_each(|part| part.cleared = Bounds::EMPTY);
+    }
+
     /// All parts, in the order of their slots.
     pub fn iter(&self) -> impl Iterator<Item = (Slot, &Part)> {
         (0u32..).map(Slot).zip(&self.slots).filter_map(|(slot, part)| Some((slot, part.as_ref()?)))
@@ -189,7 +207,11 @@ impl Parts {
     }
 
     fn relocate(&mut self, slot: Slot, way: &dyn Fn(Upright) -> Upright) {
-        self.relocate_group(slot, way);
+        let from = self.get(slot).reach;
+        let reach = self.relocate_group(slot, way);
+        if !self.get(slot).cleared.holds(&reach) {
+            self.stirred.push(from.merged(reach));
+        }
         if let Support::Part(below) = self.get(slot).support {
             self.update_reach(below);
         }

@@ -15,7 +15,8 @@ const MOST_PUSHES: usize = 4;
 impl Floor {
     /// Moves what the plates met in this step.
     pub(super) fn push(&mut self) {
-        for index in 0..self.plates.len() {
+        for awake in 0..self.awake_plates.len() {
+            let index = self.awake_plates[awake];
             let plate = &self.plates[index];
             let before = self.handled.len();
             if plate.displacement != 0.0 {

@@ -22,6 +22,7 @@ fn belt(shape: Shape, x: f64, y: f64, yaw: f64) -> BeltBody {
         displacement: 0.0,
         neighbours: Vec::new(),
         open: [true; 2],
+        drains: Vec::new(),
         beams: [None; 2],
     }
 }
@@ -186,7 +187,7 @@ fn parts_leave_when_their_centre_passes_an_open_end() {
 #[test]
 fn a_part_pushed_off_the_side_is_lost_and_said_where() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0)]);
-    floor.plates.push(plate(1.0, -0.5, FRAC_PI_2));
+    floor.add_plate(plate(1.0, -0.5, FRAC_PI_2));
     box_at(&mut floor, 1.0, 0.0);
     run_plate(&mut floor, 700, &mut 0.0, 1e-3, &[0.0]);
     assert_eq!(floor.counts(), PartCounts { boxes_in: 1, boxes_lost: 1, ..PartCounts::default() });
@@ -197,7 +198,7 @@ fn a_part_pushed_off_the_side_is_lost_and_said_where() {
 #[test]
 fn a_plate_pushes_a_row_of_parts_onto_another_belt() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0), straight(0.0, 0.65, 2.0, 0.0)]);
-    floor.plates.push(plate(1.0, -0.35, FRAC_PI_2));
+    floor.add_plate(plate(1.0, -0.35, FRAC_PI_2));
     let first = box_at(&mut floor, 1.0, -0.05);
     let second = box_at(&mut floor, 1.05, 0.27);
     let mut position = 0.0;
@@ -216,7 +217,7 @@ fn a_plate_pushes_a_row_of_parts_onto_another_belt() {
 #[test]
 fn a_part_that_runs_into_the_side_of_a_plate_waits() {
     let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
-    floor.plates.push(plate(2.0, -0.35, FRAC_PI_2));
+    floor.add_plate(plate(2.0, -0.35, FRAC_PI_2));
     let slot = box_at(&mut floor, 1.0, 0.0);
     let mut position = 0.0;
     run_plate(&mut floor, 300, &mut position, 2e-3, &[0.0]);
@@ -231,7 +232,7 @@ fn a_part_that_runs_into_the_side_of_a_plate_waits() {
 #[test]
 fn parts_in_one_another_are_pushed_and_do_not_push_each_other_back() {
     let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
-    floor.plates.push(plate(2.0, -0.5, FRAC_PI_2));
+    floor.add_plate(plate(2.0, -0.5, FRAC_PI_2));
     for (x, y) in [(2.0, 0.0), (2.0, 0.05), (2.02, -0.02)] {
         let block = Block::new(DVec3::new(SIDE, SIDE, 0.2), Upright::new(x, y, 0.0, 0.0));
         floor.enter(PartKind::Box, block, Support::Belt(0));
@@ -246,8 +247,8 @@ fn parts_in_one_another_are_pushed_and_do_not_push_each_other_back() {
 #[test]
 fn what_is_crushed_between_two_plates_is_counted_once() {
     let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
-    floor.plates.push(plate(2.0, -0.35, FRAC_PI_2));
-    floor.plates.push(plate(2.0, 0.36, -FRAC_PI_2));
+    floor.add_plate(plate(2.0, -0.35, FRAC_PI_2));
+    floor.add_plate(plate(2.0, 0.36, -FRAC_PI_2));
     box_at(&mut floor, 2.0, 0.0);
     run_plate(&mut floor, 420, &mut 0.0, 1e-3, &[0.0]);
     assert_eq!(floor.counts().collisions, 1);
@@ -275,7 +276,7 @@ fn cups_take_a_part_along_and_put_it_down_on_what_is_beneath() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0), straight(0.0, 2.0, 2.0, 0.0)]);
     part_at(&mut floor, PartKind::Pallet, [1.2, 0.5, 0.14], 1.0, 0.0);
     let slot = box_at(&mut floor, 1.0, 0.0);
-    floor.cups.push(cups(1.05, 0.02, 0.345));
+    floor.add_cups(cups(1.05, 0.02, 0.345));
     assert!(floor.about_cups(0).sealed);
     floor.cups[0].vacuum = true;
     run(&mut floor, 1, &[0.0, 0.0]);
@@ -296,7 +297,7 @@ fn cups_take_a_part_along_and_put_it_down_on_what_is_beneath() {
 fn a_part_let_go_over_nothing_is_lost() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0)]);
     box_at(&mut floor, 1.0, 0.0);
-    floor.cups.push(cups(1.0, 0.0, 0.2));
+    floor.add_cups(cups(1.0, 0.0, 0.2));
     floor.cups[0].vacuum = true;
     run(&mut floor, 1, &[0.0]);
     floor.cups[0].rim = DPose3::translation(1.0, 3.0, 1.0);
@@ -312,7 +313,7 @@ fn a_part_carried_through_another_is_a_collision() {
     let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
     let slot = box_at(&mut floor, 1.0, 0.0);
     box_at(&mut floor, 2.0, 0.0);
-    floor.cups.push(cups(1.0, 0.0, 0.2));
+    floor.add_cups(cups(1.0, 0.0, 0.2));
     floor.cups[0].vacuum = true;
     for step in 0..2000 {
         floor.cups[0].rim = DPose3::translation(1.0 + 1e-3 * f64::from(step), 0.0, 0.2);
@@ -372,7 +373,7 @@ fn drain(place: Place, kind: Option<PartKind>, delay: f64) -> Drain {
 fn an_unloading_bay_takes_what_passes_its_place() {
     for (place, way, x) in [(Place::At(1.0), 1e-3, 0.5), (Place::At(1.0), -1e-3, 1.5), (Place::End, 1e-3, 1.5)] {
         let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0), straight(2.0, 0.0, 1.0, 0.0)]);
-        floor.drains.push(drain(place, Some(PartKind::Box), 0.0));
+        floor.add_drain(drain(place, Some(PartKind::Box), 0.0));
         box_at(&mut floor, x, 0.0);
         run(&mut floor, 499, &[way, 0.0]);
         assert_eq!(floor.counts().boxes_present, 1, "{place:?}");
@@ -384,7 +385,7 @@ fn an_unloading_bay_takes_what_passes_its_place() {
 #[test]
 fn an_unloading_bay_passes_what_is_not_its_kind() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0)]);
-    floor.drains.push(drain(Place::At(1.0), Some(PartKind::Pallet), 0.0));
+    floor.add_drain(drain(Place::At(1.0), Some(PartKind::Pallet), 0.0));
     box_at(&mut floor, 0.9, 0.0);
     run(&mut floor, 500, &[1e-3]);
     assert_eq!(floor.counts().boxes_present, 1);
@@ -393,7 +394,7 @@ fn an_unloading_bay_passes_what_is_not_its_kind() {
 #[test]
 fn a_part_stays_at_an_unloading_bay_for_its_time() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0)]);
-    floor.drains.push(drain(Place::End, None, 0.5));
+    floor.add_drain(drain(Place::End, None, 0.5));
     box_at(&mut floor, 1.9, 0.0);
     run(&mut floor, 550, &[1e-3]);
     assert_eq!(floor.counts().boxes_present, 1);
@@ -406,7 +407,7 @@ fn a_part_stays_at_an_unloading_bay_for_its_time() {
 fn beams_see_parts_on_belts_and_before_plates() {
     let mut floor = floor(vec![straight(0.0, 0.0, 2.0, 0.0)]);
     floor.belts[0].beams = [Some(floor.belts[0].surface.beam(0.3, 0.05)), Some(floor.belts[0].surface.beam(0.6, 0.05))];
-    floor.plates.push(plate(1.0, -0.35, FRAC_PI_2));
+    floor.add_plate(plate(1.0, -0.35, FRAC_PI_2));
     box_at(&mut floor, 0.15, 0.0);
     let seen = |floor: &Floor| (floor.at_belt(0).barrier_a, floor.at_belt(0).barrier_b, floor.at_plate(0).barrier_a);
     assert_eq!(seen(&floor), (false, false, false));
@@ -422,7 +423,7 @@ fn beams_see_parts_on_belts_and_before_plates() {
 fn busy(places: &[(f64, f64)], reversed: bool) -> Floor {
     let mut floor =
         floor(vec![straight(0.0, 0.0, 3.0, 0.0), straight(3.0, 0.0, 2.0, 0.0), straight(1.0, 0.65, 3.0, 0.0)]);
-    floor.plates.push(plate(2.0, -0.35, FRAC_PI_2));
+    floor.add_plate(plate(2.0, -0.35, FRAC_PI_2));
     let mut put: Vec<(f64, f64)> = Vec::new();
     for &(x, y) in places {
         if put.iter().all(|(a, b): &(f64, f64)| (a - x).abs() > SIDE + 0.01 || (b - y).abs() > SIDE + 0.01) {

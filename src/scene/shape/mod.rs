@@ -13,6 +13,7 @@ mod part;
 mod pusher;
 mod sensor;
 mod servo;
+mod six_axis_robot;
 
 use super::{Assembly, Colour, NodeId, Scene};
 use crate::kinematics::{DPose3, DQuat, DVec3};
@@ -38,7 +39,10 @@ impl Scene {
     /// The scene of `plant`.
     pub fn of(plant: &Plant) -> Scene {
         let mut assembly = Assembly::default();
-        let carrier = |instance: &Instance| instance.tasks.iter().find_map(carrier_of).map(str::to_owned);
+        let carrier = |instance: &Instance| {
+            let carriers = instance.tasks.iter().filter_map(carrier_of);
+            carriers.filter(|name| *name != instance.name).map(str::to_owned).next()
+        };
         // What hangs on another instance comes after it.
         for (index, instance) in plant.instances.iter().enumerate() {
             if carrier(instance).is_none() {
@@ -48,7 +52,7 @@ impl Scene {
         }
         for (index, instance) in plant.instances.iter().enumerate() {
             let Some(carrier) = carrier(instance) else { continue };
-            let tool = assembly.find(&format!("{carrier}.{}", cartesian_robot::TOOL));
+            let tool = tool_of(&assembly, &carrier);
             // A name that leads nowhere is refused when the engine is built.
             let rest = if tool.is_some() { DPose3::IDENTITY } else { frame_of(&instance.pose) };
             let node = assembly.instance(index, &instance.name, tool, rest);
@@ -56,6 +60,12 @@ impl Scene {
         }
         assembly.finish()
     }
+}
+
+/// The frame of a robot that tools hang on.
+fn tool_of(assembly: &Assembly, robot: &str) -> Option<NodeId> {
+    let tools = [cartesian_robot::TOOL, six_axis_robot::TOOL];
+    tools.iter().find_map(|tool| assembly.find(&format!("{robot}.{tool}")))
 }
 
 /// The robot that an instance hangs on.
@@ -71,11 +81,19 @@ fn build(assembly: &mut Assembly, node: NodeId, instance: &Instance) {
     for task in &instance.tasks {
         let own = &task.parameters;
         match task.kind.name {
-            "kinetwin.StraightConveyor" => conveyor::build(assembly, node, own, instance.pose.z),
+            "kinetwin.StraightConveyor" | "kinetwin.InverterConveyor" => {
+                conveyor::build(assembly, node, own, instance.pose.z)
+            }
             "kinetwin.ConveyorCurve" => conveyor_curve::build(assembly, node, own, instance.pose.z),
             "kinetwin.Pusher" => pusher::build(assembly, node, own, instance.pose.z),
             "kinetwin.CartesianRobot" => cartesian_robot::build(assembly, node, instance),
-            "kinetwin.SuctionCapGripper" => gripper::build(assembly, node, own),
+            "kinetwin.SuctionCapGripper" => {
+                // It may be one instance with its robot.
+                let own_tool = carrier_of(task).filter(|robot| *robot == instance.name);
+                let tool = own_tool.and_then(|robot| tool_of(assembly, robot));
+                gripper::build(assembly, tool.unwrap_or(node), own);
+            }
+            "kinetwin.SixAxisRobot" => six_axis_robot::build(assembly, node, own),
             "kinetwin.LoadingBay" => bay::build(assembly, node, bay::Way::In),
             "kinetwin.UnloadingBay" => bay::build(assembly, node, bay::Way::Out),
             "kinetwin.EncoderMotor" => motor::build(assembly, node),
