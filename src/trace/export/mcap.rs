@@ -23,7 +23,7 @@ pub fn mcap<R: BufRead, W: Write>(
     mcap_with(reader, map, out, |_| Ok(()))
 }
 
-/// Writes a trace as [`mcap`] does; `more` adds channels of its own behind the signals.
+/// Writes a trace as [`mcap()`] does; `more` adds channels of its own behind the signals.
 pub fn mcap_with<R: BufRead, W: Write>(
     mut reader: Reader<R>,
     map: Option<&SignalMap>,
