@@ -9,7 +9,8 @@ use super::row::Peer;
 /// A client and its server, in processes of their own; they end with this.
 pub struct OpcUa {
     child: Child,
-    ask: ChildStdin,
+    /// None once there is nothing more to ask.
+    ask: Option<ChildStdin>,
     answers: BufReader<ChildStdout>,
 }
 
@@ -24,7 +25,8 @@ impl OpcUa {
             .stderr(Stdio::null())
             .spawn()
             .ok()?;
-        let (ask, answers) = (child.stdin.take()?, BufReader::new(child.stdout.take()?));
+        let answers = BufReader::new(child.stdout.take()?);
+        let ask = child.stdin.take();
         let mut peer = OpcUa { child, ask, answers };
         (peer.line().ok()? == "ready").then_some(peer)
     }
@@ -44,7 +46,8 @@ impl Peer for OpcUa {
     }
 
     fn calls(&mut self, count: usize, pace: Option<Duration>) -> io::Result<Vec<u64>> {
-        writeln!(self.ask, "{count} {}", pace.unwrap_or_default().as_secs_f64())?;
+        let ask = self.ask.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        writeln!(ask, "{count} {}", pace.unwrap_or_default().as_secs_f64())?;
         let line = self.line()?;
         line.split(' ').map(|ns| ns.parse().map_err(io::Error::other)).collect()
     }
@@ -52,8 +55,8 @@ impl Peer for OpcUa {
 
 impl Drop for OpcUa {
     fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.child.kill();
+        // At the end of its input it ends in good order, and its server with it; killed, it would leave the server behind.
+        drop(self.ask.take());
         let _ = self.child.wait();
     }
 }
