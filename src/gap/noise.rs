@@ -27,6 +27,8 @@ pub(super) struct Noise {
 const HIDDEN_NOISE: f64 = 0.7;
 /// How many samples an estimate of noise needs.
 const ENOUGH: usize = 40;
+/// How many differences over the longest lag tell how noise remembers.
+const MANY: usize = 200;
 /// Lags of the differences, samples.
 const LAGS: [usize; 6] = [1, 2, 3, 5, 8, 13];
 /// A median of so many times less is a standard deviation of normal differences; those beyond so many of them are no noise.
@@ -38,6 +40,8 @@ const AS_AT_REST: std::ops::Range<f64> = 0.6..1.6;
 const SLOW: f64 = 0.1;
 /// Memories that are tried; the steps between them are about what can be told apart.
 const MEMORIES: [f64; 14] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.76, 0.82, 0.87, 0.91, 0.94, 0.97];
+/// The longest of them that is noise: differences that still grow over the longest lag are those of a model that wanders off.
+const MOST_MEMORY: f64 = 0.92;
 
 /// The noise of `recorded` values that lie on steps of `step`, where `predicted` says what moves.
 pub(super) fn of(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) -> Noise {
@@ -48,7 +52,16 @@ pub(super) fn of(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) ->
     let still = if white.is_nan() { moving(recorded, predicted, step) } else { white };
     // Where what the prediction leaves differs from one sample to the next by more than it does at rest, that is a gap and no noise.
     let is_alike = |noise: &Noise| AS_AT_REST.contains(&(noise.fresh() / still.powi(2)));
-    coloured(recorded, predicted, step).filter(is_alike).unwrap_or(Noise { sigma: still, memory: 0.0 })
+    // At rest a gap stands still, however fast it comes and goes in motion.
+    let resting = |from: usize, to: usize| (from + 1..=to).all(|k| is_still(predicted, step, k));
+    let found =
+        coloured(recorded, predicted, step, &resting).or_else(|| coloured(recorded, predicted, step, &|_, _| true));
+    found.filter(is_alike).unwrap_or(Noise { sigma: still, memory: 0.0 })
+}
+
+/// Whether a signal hardly moves from the sample before to the `k`th.
+fn is_still(predicted: &[f64], step: f64, k: usize) -> bool {
+    (predicted[k] - predicted[k - 1]).abs() < step / 3.0
 }
 
 impl Noise {
@@ -58,15 +71,19 @@ impl Noise {
     }
 }
 
-/// Noise with a memory, from differences of what the prediction leaves over several lags; `None` where it leaves more than noise
-/// and what is slow beside it, or where noise does not show.
-fn coloured(recorded: &[f64], predicted: &[f64], step: f64) -> Option<Noise> {
+/// Noise with a memory, from differences over several lags of what the prediction leaves between samples that `is_asked` for;
+/// `None` where they are few, where it leaves more than noise and what is slow beside it, or where noise does not show.
+fn coloured(recorded: &[f64], predicted: &[f64], step: f64, is_asked: &dyn Fn(usize, usize) -> bool) -> Option<Noise> {
     let rest: Vec<f64> = recorded.iter().zip(predicted).map(|(a, b)| a - b).collect();
-    if rest.len() < 2 * ENOUGH {
+    let apart = |lag: usize| {
+        let pairs = (0..rest.len().saturating_sub(lag)).filter(|from| is_asked(*from, from + lag));
+        pairs.map(|from| (rest[from + lag] - rest[from]).abs()).collect::<Vec<f64>>()
+    };
+    let apart = LAGS.map(apart);
+    if apart.iter().any(|differences| differences.len() < MANY) {
         return None;
     }
-    let grown = LAGS.map(|lag| {
-        let differences: Vec<f64> = rest.windows(lag + 1).map(|pair| (pair[lag] - pair[0]).abs()).collect();
+    let grown = apart.map(|differences| {
         // What jumps is no noise. (A median of differences on a lattice is known to a step.)
         let clip = CLIP * (DEVIATION * median(&differences).unwrap_or(0.0) + 0.5 * step);
         let squares: f64 = differences.iter().map(|difference| difference.min(clip).powi(2)).sum();
@@ -89,7 +106,7 @@ fn coloured(recorded: &[f64], predicted: &[f64], step: f64) -> Option<Noise> {
         (product(&off, &off), variance, slowness, memory)
     };
     let (_, variance, slowness, memory) = MEMORIES.map(fit).into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let is_noise = variance > (HIDDEN_NOISE * step).powi(2) && slowness < SLOW * variance;
+    let is_noise = variance > (HIDDEN_NOISE * step).powi(2) && slowness < SLOW * variance && memory < MOST_MEMORY;
     is_noise.then(|| Noise { sigma: variance.sqrt(), memory })
 }
 
@@ -111,7 +128,7 @@ fn spans(predicted: &[f64], step: f64, least: usize) -> Vec<(usize, usize)> {
 
 /// Noise where nothing moves: from differences of neighbours, clipped where they are no noise. NaN where nothing rests.
 fn at_rest(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) -> f64 {
-    let still = |k: usize| (predicted[k] - predicted[k - 1]).abs() < step / 3.0;
+    let still = |k: usize| is_still(predicted, step, k);
     let differences: Vec<f64> = (2..recorded.len())
         .filter(|&k| grid.cycle > 0.0 && still(k) && still(k - 1))
         .map(|k| (recorded[k] - recorded[k - 1]).abs())

@@ -431,6 +431,23 @@ impl Subject {
         }
     }
 
+    /// Finds the floors again from a prediction that knows more; whether any of them is another now. Those of a device that is taken
+    /// up again and again stay as they are.
+    pub(super) fn find_floors_again(&mut self, prediction: &Prediction) -> bool {
+        const OTHER: f64 = 0.05;
+        if self.is_taken_up_again() {
+            return false;
+        }
+        let before: Vec<Floor> = self.runs.iter().flat_map(|run| run.floors.iter().copied()).collect();
+        self.find_floors(prediction, Timing::AsFound);
+        let after = self.runs.iter().flat_map(|run| &run.floors);
+        let is_other = |(before, after): (&Floor, &Floor)| {
+            (after.noise - before.noise).abs() > OTHER * after.step.max(before.noise)
+                || (after.memory - before.memory).abs() > OTHER
+        };
+        before.iter().zip(after).any(is_other)
+    }
+
     /// Whether a signal is a contact, which comes through the filter of an input; a word does not.
     pub(super) fn is_filtered(&self, info: &SignalInfo) -> bool {
         self.kind.ports[info.port].ty == PortType::Boolean

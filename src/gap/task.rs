@@ -48,7 +48,7 @@ const LEAST_DEVICES: usize = 2;
 /// How much nearer each of them must come, in deviance.
 const NEARER: f64 = 4.0;
 /// How far an edge may be off, standard deviation, s, and how much a stray counts.
-const EDGE_SIGMA_S: f64 = 3e-4;
+const EDGE_SIGMA_S: f64 = 1.5e-4;
 const STRAY: f64 = 9.0;
 
 /// What is common to all devices of a recording.

@@ -27,9 +27,20 @@ const ROUNDS: usize = 2;
 impl Bare {
     /// Fits the nominal parameters of a device whose nominal prediction is known.
     pub fn new(subject: &Subject, nominal: &Prediction) -> Bare {
+        Bare::from(subject, nominal, &Overrides::none())
+    }
+
+    /// The same, once the device's floors are known better: the fit begins at what was found before.
+    pub fn again(&self, subject: &Subject, nominal: &Prediction) -> Bare {
+        Bare::from(subject, nominal, &self.overrides)
+    }
+
+    fn from(subject: &Subject, nominal: &Prediction, known: &Overrides) -> Bare {
         let stop = || false;
         let bench = Bench::new(subject, nuisances(subject, nominal), &stop);
-        let fitted = (!bench.nuisances.is_empty()).then(|| fit(&bench)).flatten();
+        let begin = |nuisance: &Nuisance| known.0.get(nuisance.name).copied().unwrap_or(nuisance.nominal);
+        let start = bench.nuisances.iter().map(begin).collect();
+        let fitted = (!bench.nuisances.is_empty()).then(|| fit(&bench, start)).flatten();
         let known = fitted.and_then(|(at, overrides)| Some((bench.predict(&[], &at)?, at, overrides)));
         let (prediction, at, overrides) =
             known.unwrap_or_else(|| (nominal.clone(), bench.nominal(&[]), Overrides::none()));
@@ -46,9 +57,9 @@ impl Bare {
     }
 }
 
-fn fit(bench: &Bench<'_>) -> Option<(Vec<f64>, Overrides)> {
+fn fit(bench: &Bench<'_>, start: Vec<f64>) -> Option<(Vec<f64>, Overrides)> {
     let cost = |at: &[f64]| bench.residuals(&[], at).map_or(f64::INFINITY, |residuals| sum_of_squares(&residuals));
-    let mut best = bench.nominal(&[]);
+    let mut best = start;
     let mut least = cost(&best);
     for _ in 0..ROUNDS {
         let before = least;

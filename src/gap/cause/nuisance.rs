@@ -12,7 +12,15 @@ pub struct Nuisance {
     pub nominal: f64,
     /// A tolerance is taken for two standard deviations.
     pub deviation: f64,
+    /// How many standard deviations off it is looked for.
+    pub reach: f64,
 }
+
+/// Within its tolerance, and a twentieth of it for what the fit leaves open: further off it is a parameter that is wrong, which is an
+/// effect.
+const WITHIN: f64 = 2.1;
+/// Of a device that is taken up again and again, whose law is not all of the truth, by which its parameters are pulled.
+const BEYOND: f64 = 4.0;
 
 impl Nuisance {
     /// How many standard deviations a value is off.
@@ -25,9 +33,9 @@ impl Nuisance {
         self.nominal + strain * self.deviation
     }
 
-    /// Where it is looked for: four standard deviations either way.
+    /// Where it is looked for.
     pub fn range(&self) -> Range {
-        let reach = 4.0 * self.deviation;
+        let reach = self.reach * self.deviation;
         Range { least: self.nominal - reach, greatest: self.nominal + reach, scale: self.deviation }
     }
 }
@@ -38,9 +46,10 @@ const UNSEEN: f64 = 0.05;
 
 /// The parameters of `subject` with a tolerance that its reports depend on.
 pub fn nuisances(subject: &Subject, nominal: &Prediction) -> Vec<Nuisance> {
+    let reach = if subject.is_taken_up_again() { BEYOND } else { WITHIN };
     let declared = subject.parameters.0.iter().filter_map(|(name, parameter)| match parameter.value {
         ParameterValue::Number(value) if parameter.tolerance > 0.0 && value != 0.0 => {
-            Some(Nuisance { name, nominal: value, deviation: 0.5 * parameter.tolerance * value.abs() })
+            Some(Nuisance { name, nominal: value, deviation: 0.5 * parameter.tolerance * value.abs(), reach })
         }
         _ => None,
     });
