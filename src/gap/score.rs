@@ -103,6 +103,15 @@ impl Score {
         places
     }
 
+    /// Which of [`Score::residuals`] are samples of levels.
+    pub fn are_levels(&self) -> Vec<bool> {
+        let of = |signal: &SignalScore| match &signal.level {
+            Some(level) => vec![true; level.at.len()],
+            None => vec![false; signal.edges.iter().filter(|edge| edge.recorded.is_some()).count() + 1],
+        };
+        self.signals.iter().flat_map(of).collect()
+    }
+
     /// Every cost with its instant and its run, for sums over spans of time.
     pub fn costs(&self) -> impl Iterator<Item = (usize, f64, f64)> {
         self.signals.iter().flat_map(|signal| {

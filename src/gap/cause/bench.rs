@@ -166,6 +166,16 @@ impl<'a> Bench<'a> {
         self.nuisances_beside(set).map(|nuisance| nuisance.nominal).collect()
     }
 
+    /// The nuisances beside `set` by name, and how far each may be off.
+    pub fn names_beside<'b>(&'b self, set: &'b [Candidate]) -> impl Iterator<Item = &'static str> + 'b {
+        self.nuisances_beside(set).map(|nuisance| nuisance.name)
+    }
+
+    /// The standard deviations of the nuisances beside `set`.
+    pub fn deviations_beside(&self, set: &[Candidate]) -> Vec<f64> {
+        self.nuisances_beside(set).map(|nuisance| nuisance.deviation).collect()
+    }
+
     /// Fits a set from the best of `starts`, which hold a value for each of its ranges.
     pub fn fit(&self, set: &[Candidate], starts: &[Vec<f64>], effort: Effort) -> Option<Trial> {
         let ranges = self.ranges(set);

@@ -8,7 +8,7 @@
 
 use super::bench::Bench;
 use super::candidate::Candidate;
-use crate::gap::fit::{least_squares, sum_of_squares};
+use crate::gap::fit::least_squares;
 use crate::gap::statistics::quantile;
 use crate::gap::{Score, Subject};
 
@@ -42,33 +42,27 @@ fn with_sigma(subject: &Subject, sigma: f64) -> Subject {
     blurred
 }
 
-/// Where a candidate's search begins, seen from afar: where the devices of [`blurred`] led one after the other, and the best of the
-/// starts that the first was led from. `all` completes a candidate's parameters.
-pub fn starts(
+/// Where a candidate's search begins, seen from afar: where the devices of [`blurred`] led one after the other from the first of
+/// `starts`, which are the best for the first of them, and those. `all` completes a candidate's parameters.
+pub fn sharpened(
     bench: &Bench<'_>,
     blurred: &[Subject],
     (set, candidate): (&[Candidate], &Candidate),
+    starts: &[&[f64]],
     all: &(dyn Fn(&[f64]) -> Vec<f64> + Sync),
 ) -> Option<Vec<Vec<f64>>> {
     const FROM: usize = 2;
     let ranges: Vec<_> = candidate.ranges().collect();
-    let first = bench.with(blurred.first()?);
-    let mut scored: Vec<(f64, &Vec<f64>)> = candidate
-        .starts
-        .iter()
-        .filter_map(|start| Some((sum_of_squares(&first.residuals(set, &all(start))?), start)))
-        .collect();
-    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     let nearer = |subject: &Subject, from: &[f64]| {
         let there = bench.with(subject);
         let residuals = |at: &[f64]| there.residuals(set, &all(at));
         least_squares(&residuals, from, &ranges, 8 + 6 * ranges.len() as u32)
     };
-    let found = scored.iter().take(FROM).filter_map(|(_, start)| nearer(&blurred[0], start));
+    let found = starts.iter().take(FROM).filter_map(|start| nearer(&blurred[0], start));
     let mut at = found.min_by(|a, b| a.cost.total_cmp(&b.cost))?.at;
     for subject in &blurred[1..] {
         at = nearer(subject, &at)?.at;
     }
-    let others = scored.into_iter().take(FROM).map(|(_, start)| start.clone());
+    let others = starts.iter().take(FROM).map(|start| start.to_vec());
     Some(std::iter::once(at).chain(others).collect())
 }

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
-use super::ladder::{DRAWS, Ladder, Tell, handicap, rung};
+use super::ladder::{DRAWS, Ladder, Tell, handicap};
+use super::rung::rung;
 use super::unseen::unseen;
 use crate::gap::statistics::{Draws, SAME_CLASS};
 use crate::plant::EffectPlace;

@@ -1,18 +1,14 @@
 //! The ladder: the best effect, then a second and a third beside it, as long as each is worth having.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
-use super::blur;
 use super::candidate::Candidate;
-use super::library;
+use super::rung::rung;
 use super::unseen::unseen;
-use crate::gap::fit::{Effort, Residuals, least_squares, search, sum_of_squares};
+use crate::gap::fit::Effort;
 use crate::gap::statistics::{Draws, least_gain, quantile};
-use crate::gap::{Prediction, Score, Subject};
+use crate::gap::{Prediction, Score, Subject, THRESHOLD, evidence};
 
 /// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
 const MOST_EFFECTS: usize = 6;
@@ -22,11 +18,8 @@ const LEAST_SHARE: f64 = 0.03;
 const LEAST_SHARE_OF_REST: f64 = 0.2;
 /// Draws of the block bootstrap.
 pub const DRAWS: usize = 400;
-/// What a candidate must explain to be looked at closely.
-const PROMISING: f64 = 0.02;
-
 /// What share of the best one's gain a candidate must have for it to rival it once all is fitted anew.
-const NEAR_THE_BEST: f64 = 0.3;
+pub const NEAR_THE_BEST: f64 = 0.3;
 
 /// How far a search is.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,6 +121,10 @@ pub fn floor(score: &Score) -> (f64, f64) {
 fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> bool {
     let below = ladder.best.clone();
     let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return false };
+    let is_evident = |prediction: Prediction| evidence(bench.subject, &prediction) > THRESHOLD;
+    if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
+        return false;
+    }
     if plain.cost - ladder.floor.0 < least_gain(1, 1) * plain.inflation() {
         return false;
     }
@@ -175,153 +172,6 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
     let blocks = sum * sum / f64::max(squares, f64::MIN_POSITIVE);
     let explains = (below.cost - next.cost) / (below.cost - floor_of(bench, below)).max(1.0);
     (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
-}
-
-/// Every candidate that is admitted beside the effects of `below`, those held as they are; the best first.
-pub fn rung(
-    bench: &Bench<'_>,
-    below: &Trial,
-    excess: f64,
-    is_asked: &(dyn Fn(&str) -> bool + Sync),
-    is_admitted: &dyn Fn(&Candidate) -> bool,
-    tell: &Tell<'_>,
-) -> Vec<Trial> {
-    let Some(prediction) = bench.predict(&below.set, &below.at) else { return Vec::new() };
-    let score = bench.subject.score(&prediction);
-    let mut library = candidates(bench, &prediction, &score, is_asked);
-    library.retain(|candidate| is_admitted(candidate) && !below.set.iter().any(|there| there.is_same(candidate)));
-    let blurred = blur::blurred(bench.subject, &score);
-    let tried = AtomicUsize::new(0);
-    let best = Mutex::new((0.0, "none yet".to_owned()));
-    // One candidate may take as long as many others: each is a piece of work of its own.
-    let fitted = library.par_iter().with_max_len(1).filter_map(|candidate| {
-        let trial = beside(bench, &blurred, below, candidate, excess);
-        let explains = trial.as_ref().map_or(0.0, |trial| (below.cost - trial.cost) / excess);
-        let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
-        if explains > best.0 {
-            *best = (explains, candidate.name());
-        }
-        tell(&Progress {
-            tried: tried.fetch_add(1, Ordering::Relaxed) + 1,
-            of: library.len(),
-            device: bench.subject.name.clone(),
-            best: best.1.clone(),
-            explains: best.0,
-        });
-        trial
-    });
-    let mut trials: Vec<Trial> = fitted.collect();
-    trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    // Of several choices of one effect the best is the effect.
-    let mut distinct: Vec<Trial> = Vec::with_capacity(trials.len());
-    for trial in trials {
-        let is_there = |other: &Trial| other.set.last().zip(trial.set.last()).is_some_and(|(a, b)| a.is_same(b));
-        if !distinct.iter().any(is_there) {
-            distinct.push(trial);
-        }
-    }
-    distinct
-}
-
-fn candidates(
-    bench: &Bench<'_>,
-    prediction: &Prediction,
-    score: &Score,
-    is_asked: &(dyn Fn(&str) -> bool + Sync),
-) -> Vec<Candidate> {
-    library::candidates(bench.subject, prediction, score, &|id| is_asked(id))
-}
-
-/// The candidate beside the effects of `below`, with only its own parameters free; closely where it promises something.
-fn beside(bench: &Bench<'_>, blurred: &[Subject], below: &Trial, candidate: &Candidate, excess: f64) -> Option<Trial> {
-    let set: Vec<Candidate> = below.set.iter().chain([candidate]).cloned().collect();
-    let own: usize = below.parameters();
-    let (held, nuisances) = below.at.split_at(own);
-    // A candidate that sets a nuisance takes its place.
-    let nuisances = if nuisances.len() == bench.nominal(&set).len() { nuisances.to_vec() } else { bench.nominal(&set) };
-    let all = |at: &[f64]| [held, at, &nuisances].concat();
-    let residuals = |at: &[f64]| bench.residuals(&set, &all(at));
-    let ranges: Vec<_> = candidate.ranges().collect();
-    // Of edges alone, those of the starts that lead there are enough.
-    let sought = if ranges.is_empty() { None } else { blur::starts(bench, blurred, (&set, candidate), &all) };
-    let sought = Candidate { starts: sought.unwrap_or_else(|| candidate.starts.clone()), ..candidate.clone() };
-    let mut scored = score_starts(&residuals, &sought, below.cost);
-    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (cost, first) = scored.first()?;
-    let mut best = (*cost, (*first).clone());
-    // What costs the same wherever it is begun has nothing to act on in these recordings.
-    let is_idle = scored.iter().all(|(cost, _)| (cost - below.cost).abs() <= 1e-9 * below.cost);
-    let is_hopeless = candidate.free.len() == 1 && is_hopeless(&scored, candidate, below.cost, PROMISING * excess);
-    if !ranges.is_empty() && !is_idle && !is_hopeless {
-        let glance = least_squares(&residuals, first, &ranges, 4 + 4 * ranges.len() as u32)?;
-        best = (glance.cost, glance.at);
-        let is_promising = below.cost - best.0 > PROMISING * excess;
-        if is_promising && bench.is_rugged() {
-            return bench.fit(&set, &[all(&best.1)], anew(bench.ranges(&set).len()));
-        }
-        if is_promising {
-            let starts: Vec<Vec<f64>> = std::iter::once(best.1.clone())
-                .chain(scored.iter().skip(1).take(2).map(|(_, start)| (*start).clone()))
-                .collect();
-            let effort = Effort { starts: 3, budget: 20 + 12 * ranges.len() as u32 };
-            let found = search(&residuals, &starts, &ranges, effort)?;
-            best = (found.cost, found.at);
-        }
-    }
-    bench.trial(&set, all(&best.1))
-}
-
-/// Whether nothing is to be gained along a single parameter: every start costs more than none of the effect, and the parabola
-/// through none and the two nearest of them on either side has its bottom less than half of `worth` below.
-fn is_hopeless(scored: &[(f64, &Vec<f64>)], candidate: &Candidate, without: f64, worth: f64) -> bool {
-    let name = candidate.free[0].name;
-    let Some(nominal) = candidate.effect.parameters.iter().find(|of| of.name == name).map(|of| of.nominal) else {
-        return false;
-    };
-    if candidate.is_parameter_error() || scored.iter().any(|(cost, _)| *cost <= without) {
-        return false;
-    }
-    let bottom = |side: f64| {
-        let mut near: Vec<(f64, f64)> = scored
-            .iter()
-            .map(|(cost, at)| (side * (at[0] - nominal), cost - without))
-            .filter(|(off, _)| *off > 0.0 && off.is_finite())
-            .collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let [(one, low), (other, high), ..] = near[..] else {
-            return if near.is_empty() { 0.0 } else { f64::INFINITY };
-        };
-        // cost = a·x² + b·x through both.
-        let a = (high / other - low / one) / (other - one);
-        let b = low / one - a * one;
-        if b >= 0.0 && a >= 0.0 {
-            0.0
-        } else if a > 0.0 {
-            b * b / (4.0 * a)
-        } else {
-            f64::INFINITY
-        }
-    };
-    bottom(1.0).max(bottom(-1.0)) < 0.5 * worth
-}
-
-/// What each start costs. The starts of a single parameter go from small effects to large ones: once some in a row cost far more
-/// than no effect at all, the larger ones are not tried.
-fn score_starts<'c>(residuals: &Residuals<'_>, candidate: &'c Candidate, without: f64) -> Vec<(f64, &'c Vec<f64>)> {
-    const HOPELESS: f64 = 2.0;
-    const IN_A_ROW: usize = 3;
-    let mut scored = Vec::with_capacity(candidate.starts.len());
-    let mut hopeless = 0;
-    for start in &candidate.starts {
-        let Some(found) = residuals(start) else { continue };
-        let cost = sum_of_squares(&found);
-        scored.push((cost, start));
-        hopeless = if cost > HOPELESS * without { hopeless + 1 } else { 0 };
-        if candidate.free.len() == 1 && hopeless == IN_A_ROW {
-            break;
-        }
-    }
-    scored
 }
 
 /// The best of the rung, refitted with everything free: what costs least, where a further parameter and a nominal parameter that

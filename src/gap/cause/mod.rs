@@ -10,9 +10,11 @@ mod ladder;
 mod library;
 mod nuisance;
 mod remainder;
+mod rung;
 mod scales;
 mod scan;
 mod starts;
+mod tangent;
 mod unseen;
 
 pub use bare::Bare;

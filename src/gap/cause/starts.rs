@@ -25,7 +25,7 @@ pub struct Clues<'a> {
 }
 
 /// From which value on a limit is taken to limit nothing.
-const UNLIMITED: f64 = 1e8;
+pub const UNLIMITED: f64 = 1e8;
 /// The longest time that is searched for, s.
 const LONGEST_S: f64 = 3.0;
 /// The most starts of one candidate.

@@ -13,8 +13,8 @@ pub struct Effort {
     pub budget: u32,
 }
 
-/// The least cost that is found from the best of `starts`: least squares, then a simplex about where it ended, because least
-/// squares stick where a model has kinks or steps. `None` where the model cannot be computed at any start.
+/// The least cost that is found from the best of `starts`: least squares, then of a few parameters a simplex about where it ended,
+/// because least squares stick where a model has kinks or steps. `None` where the model cannot be computed at any start.
 pub fn search(residuals: &Residuals<'_>, starts: &[Vec<f64>], ranges: &[Range], effort: Effort) -> Option<Fitted> {
     let mut scored: Vec<(f64, &Vec<f64>)> = starts
         .par_iter()
@@ -29,8 +29,14 @@ pub fn search(residuals: &Residuals<'_>, starts: &[Vec<f64>], ranges: &[Range], 
     best.map(|found| Fitted { evaluations: found.evaluations + starts.len() as u32, ..found })
 }
 
+/// Among more parameters a simplex creeps for longer than any search lasts.
+const MOST_OF_A_SIMPLEX: usize = 4;
+
 fn downhill(residuals: &Residuals<'_>, start: &[f64], ranges: &[Range], budget: u32) -> Option<Fitted> {
     let found = least_squares(residuals, start, ranges, budget)?;
+    if ranges.len() > MOST_OF_A_SIMPLEX {
+        return Some(found);
+    }
     let near: Vec<Range> = (0..ranges.len())
         .map(|j| Range { scale: (4.0 * found.spread(j)).min(0.3 * ranges[j].scale), ..ranges[j] })
         .collect();

@@ -1,0 +1,401 @@
+//! One rung of the ladder: what each candidate of the library explains beside the effects that are there already.
+//!
+//! A replay costs a millisecond, a fit a hundred of them, and a device has a hundred candidates. So each is glanced at first: a start
+//! of its parameters moves the residuals along a direction, and along that direction alone it could take away
+//! (d·r)²/|d|², how far it moves them being a matter of its parameter. Starts that move them next to nothing, or further than the
+//! whole gap, are not looked at. Only what promises something is fitted, and only what then explains a part of what the best
+//! explains is fitted closely.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+use super::bench::{Bench, Trial};
+use super::blur;
+use super::candidate::Candidate;
+use super::ladder::{NEAR_THE_BEST, Progress, Tell, anew};
+use super::library;
+use super::starts::UNLIMITED;
+use super::tangent::{Beside, Tangent, product};
+use crate::gap::fit::{Effort, least_squares, search, sum_of_squares};
+use crate::gap::{Score, Subject};
+
+/// What a candidate must explain to be looked at closely.
+const PROMISING: f64 = 0.02;
+/// What a glance must promise of that: several parameters together may do more than each start says.
+const AT_A_GLANCE: [f64; 2] = [0.5, 0.2];
+/// The same of what the most promising one promises.
+const BESIDE_THE_BEST: [f64; 2] = [0.1, 0.03];
+/// Squared, how far a start must move the residuals, in what is worth having, and how far it may, in all there is to explain.
+const LEAST_MOVED: f64 = 0.05;
+const MOST_MOVED: f64 = 4.0;
+
+/// Every candidate that is admitted beside the effects of `below`, those held as they are; the best first.
+pub fn rung(
+    bench: &Bench<'_>,
+    below: &Trial,
+    excess: f64,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    is_admitted: &dyn Fn(&Candidate) -> bool,
+    tell: &Tell<'_>,
+) -> Vec<Trial> {
+    let Some(prediction) = bench.predict(&below.set, &below.at) else { return Vec::new() };
+    let Some(tangent) = Tangent::new(bench, below) else { return Vec::new() };
+    let score = bench.subject.score(&prediction);
+    let mut library = library::candidates(bench.subject, &prediction, &score, &|id| is_asked(id));
+    library.retain(|candidate| is_admitted(candidate) && !below.set.iter().any(|there| there.is_same(candidate)));
+    let blurred = blur::blurred(bench.subject, &score);
+    let is_smooth = !bench.is_rugged() && is_in_levels(&score);
+    let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
+    let looks = Looks { bench, below, tangent, blurred: &blurred, afar, excess, is_smooth };
+    let counter = Counter { device: &bench.subject.name, of: library.len(), tell, told: Default::default() };
+    // One candidate may take as long as many others: each is a piece of work of its own.
+    let glances: Vec<Glance> = library
+        .into_par_iter()
+        .with_max_len(1)
+        .filter_map(|candidate| {
+            let glance = looks.glance(candidate);
+            if !glance.as_ref().is_some_and(|glance| glance.is_promising) {
+                counter.count(glance.as_ref().map(|glance| (&glance.candidate, 0.0)));
+            }
+            glance
+        })
+        .collect();
+    let most = glances.iter().map(|glance| glance.promise).fold(0.0, f64::max);
+    let is_worth_a_fit = |glance: &Glance| {
+        let share = BESIDE_THE_BEST[usize::from(glance.candidate.free.len() > 1)];
+        glance.is_promising && glance.promise >= share * most
+    };
+    let fitted = glances.into_par_iter().with_max_len(1).filter_map(|glance| match is_worth_a_fit(&glance) {
+        true => {
+            let fitted = looks.fit(glance)?;
+            counter.count(Some((&fitted.candidate, fitted.gain / excess)));
+            Some(fitted)
+        }
+        false => {
+            if glance.is_promising {
+                counter.count(None);
+            }
+            Some(Glance { is_promising: false, ..glance })
+        }
+    });
+    let fitted: Vec<Glance> = fitted.collect();
+    let most = fitted.iter().map(|glance| glance.gain).fold(0.0, f64::max);
+    // Where slopes lead nowhere, what a few steps downhill gain says little.
+    let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
+    let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| match is_near(&glance) {
+        true => looks.fit_closely(&glance),
+        false => looks.trial(&glance),
+    });
+    distinct(trials.collect())
+}
+
+/// Whether more of a score's excess lies in levels than in edges.
+fn is_in_levels(score: &Score) -> bool {
+    let excess = |is_level: bool| -> f64 {
+        let of = score.signals.iter().filter(|signal| signal.level.is_some() == is_level);
+        of.map(|signal| (signal.cost - signal.floor_cost.0).max(0.0)).sum()
+    };
+    excess(true) > excess(false)
+}
+
+/// The best first; of several choices of one effect the best is the effect.
+fn distinct(mut trials: Vec<Trial>) -> Vec<Trial> {
+    trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut distinct: Vec<Trial> = Vec::with_capacity(trials.len());
+    for trial in trials {
+        let is_there = |other: &Trial| other.set.last().zip(trial.set.last()).is_some_and(|(a, b)| a.is_same(b));
+        if !distinct.iter().any(is_there) {
+            distinct.push(trial);
+        }
+    }
+    distinct
+}
+
+/// Tells how far a rung is.
+struct Counter<'a> {
+    device: &'a str,
+    of: usize,
+    tell: &'a Tell<'a>,
+    told: (AtomicUsize, Mutex<(f64, Option<String>)>),
+}
+
+impl Counter<'_> {
+    /// Another candidate is done, and explains so much.
+    fn count(&self, done: Option<(&Candidate, f64)>) {
+        let mut best = self.told.1.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((candidate, explains)) = done.filter(|(_, explains)| *explains > best.0) {
+            *best = (explains, Some(candidate.name()));
+        }
+        (self.tell)(&Progress {
+            tried: self.told.0.fetch_add(1, Ordering::Relaxed) + 1,
+            of: self.of,
+            device: self.device.to_owned(),
+            best: best.1.clone().unwrap_or_else(|| "none yet".to_owned()),
+            explains: best.0,
+        });
+    }
+}
+
+/// What all candidates of a rung have in common.
+struct Looks<'a> {
+    bench: &'a Bench<'a>,
+    below: &'a Trial,
+    tangent: Tangent,
+    blurred: &'a [Subject],
+    /// The device with its edges least well known, and its residuals without the candidate: where the gap lies in edges, those that are
+    /// known to the millisecond move with nothing.
+    afar: Option<(&'a Subject, Vec<f64>)>,
+    excess: f64,
+    /// Whether the gap lies in levels, which move with a parameter from its first trace on.
+    is_smooth: bool,
+}
+
+/// A candidate, and what is known of it so far.
+struct Glance {
+    candidate: Candidate,
+    set: Vec<Candidate>,
+    beside: Beside,
+    /// Where it stands.
+    at: Vec<f64>,
+    /// Other places to begin at, the best first.
+    others: Vec<Vec<f64>>,
+    /// By how much it costs less there than nothing.
+    gain: f64,
+    /// By how much it might.
+    promise: f64,
+    is_promising: bool,
+}
+
+/// The device as it is looked at: its residuals without the candidate, and how much there is to explain.
+struct Sight<'a> {
+    bench: &'a Bench<'a>,
+    here: &'a [f64],
+    excess: f64,
+}
+
+/// What a candidate's starts promise together.
+struct Promise {
+    most: f64,
+    is_kept: bool,
+}
+
+impl Sight<'_> {
+    /// What looks promise, and whether that is worth a fit.
+    fn promise(&self, glance: &Glance, looks: &[Look]) -> Promise {
+        let worth = PROMISING * self.excess * AT_A_GLANCE[usize::from(glance.candidate.free.len() > 1)];
+        let most = looks.iter().map(|look| look.promise).fold(0.0, f64::max);
+        Promise { most, is_kept: most > worth }
+    }
+}
+
+/// A start that was looked at.
+struct Look {
+    at: Vec<f64>,
+    cost: f64,
+    /// How far it moves the residuals, squared.
+    moved: f64,
+    /// What it could take away along the way that it moves them, and by which multiple of that.
+    promise: f64,
+    multiple: f64,
+}
+
+impl Looks<'_> {
+    /// What a candidate's starts promise.
+    fn glance(&self, candidate: Candidate) -> Option<Glance> {
+        let set: Vec<Candidate> = self.below.set.iter().chain([&candidate]).cloned().collect();
+        let beside = self.tangent.beside(self.bench, &set);
+        let mut glance = Glance {
+            candidate,
+            set,
+            beside,
+            at: Vec::new(),
+            others: Vec::new(),
+            gain: 0.0,
+            promise: 0.0,
+            is_promising: false,
+        };
+        if glance.candidate.free.is_empty() {
+            glance.gain = sum_of_squares(&glance.beside.here) - sum_of_squares(&self.residuals(&glance, &[])?);
+            return Some(glance);
+        }
+        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let mut promise = None;
+        let mut looks = match (&self.afar, self.is_smooth) {
+            (_, true) => self.look_about(&near, &glance),
+            (None, false) => self.look_at_all(&near, &glance),
+            (Some((subject, residuals)), false) => {
+                let strain =
+                    self.bench.strain(&glance.set, &self.all(&glance, &vec![0.0; glance.candidate.free.len()]));
+                let here = glance.beside.left_of([residuals.as_slice(), &strain].concat());
+                let sight = Sight { bench: &self.bench.with(subject), excess: sum_of_squares(&here), here: &here };
+                let mut looks = self.look_about(&sight, &glance);
+                looks.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+                promise = Some(sight.promise(&glance, &looks));
+                let starts: Vec<&[f64]> = looks.iter().map(|look| look.at.as_slice()).collect();
+                let all = |at: &[f64]| self.all(&glance, at);
+                let sharp = match promise {
+                    Some(Promise { is_kept: true, .. }) => {
+                        blur::sharpened(self.bench, self.blurred, (&glance.set, &glance.candidate), &starts, &all)
+                    }
+                    _ => None,
+                };
+                let starts = sharp.unwrap_or_else(|| starts.iter().take(1).map(|start| start.to_vec()).collect());
+                starts.iter().filter_map(|start| self.look(&near, &glance, start)).collect()
+            }
+        };
+        looks.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let promise = promise.unwrap_or_else(|| match self.is_smooth {
+            true => near.promise(&glance, &looks),
+            // What costs the same wherever it is begun has nothing to act on in these recordings.
+            false => Promise { most: 0.0, is_kept: looks.iter().any(|look| look.moved > 1e-9) },
+        });
+        let first = looks.first()?;
+        (glance.at, glance.gain) = (first.at.clone(), sum_of_squares(&glance.beside.here) - first.cost);
+        glance.others = looks.into_iter().skip(1).take(2).map(|look| look.at).collect();
+        Some(Glance { is_promising: promise.is_kept, promise: promise.most, ..glance })
+    }
+
+    /// All parameters of a candidate at `at`, the nuisances where they are held.
+    fn all(&self, glance: &Glance, at: &[f64]) -> Vec<f64> {
+        [&self.below.at[..self.below.parameters()], at, &glance.beside.carried].concat()
+    }
+
+    fn residuals(&self, glance: &Glance, at: &[f64]) -> Option<Vec<f64>> {
+        Some(glance.beside.left_of(self.bench.residuals(&glance.set, &self.all(glance, at))?))
+    }
+
+    fn look(&self, sight: &Sight<'_>, glance: &Glance, at: &[f64]) -> Option<Look> {
+        let there = glance.beside.left_of(sight.bench.residuals(&glance.set, &self.all(glance, at))?);
+        let here = sight.here;
+        let cost = sum_of_squares(&there);
+        if there.len() != here.len() {
+            return Some(Look { at: at.to_vec(), cost, moved: f64::INFINITY, promise: 0.0, multiple: 1.0 });
+        }
+        let moved: Vec<f64> = there.iter().zip(here).map(|(there, here)| there - here).collect();
+        let squared = sum_of_squares(&moved);
+        let along = product(&moved, here);
+        let multiple = if squared > 0.0 { -along / squared } else { 0.0 };
+        Some(Look { at: at.to_vec(), cost, moved: squared, promise: multiple * multiple * squared, multiple })
+    }
+
+    /// Of a single parameter the starts that move the residuals by more than nothing and by less than the whole gap, either way from
+    /// where it does nothing; of several, all.
+    fn look_about(&self, sight: &Sight<'_>, glance: &Glance) -> Vec<Look> {
+        let candidate = &glance.candidate;
+        let [free] = candidate.free.as_slice() else {
+            return candidate.starts.iter().filter_map(|start| self.look(sight, glance, start)).collect();
+        };
+        let parameter = candidate.effect.parameters.iter().find(|of| of.name == free.name);
+        let nominal = match (candidate.is_parameter_error(), parameter) {
+            (false, Some(parameter)) => parameter.nominal,
+            _ => return candidate.starts.iter().filter_map(|start| self.look(sight, glance, start)).collect(),
+        };
+        let mut looks = Vec::new();
+        for side in [1.0, -1.0] {
+            let mut starts: Vec<f64> =
+                candidate.starts.iter().map(|start| start[0]).filter(|at| side * (at - nominal) > 0.0).collect();
+            starts.sort_by(|a, b| (a - nominal).abs().total_cmp(&(b - nominal).abs()));
+            self.look_outward(sight, glance, &starts, &mut looks);
+        }
+        looks.extend(self.look_ahead(sight, glance, nominal, &looks));
+        looks
+    }
+
+    /// Looks where the most promising look says that the least cost is, if the effect is a multiple of its parameter.
+    fn look_ahead(&self, sight: &Sight<'_>, glance: &Glance, nominal: f64, looks: &[Look]) -> Option<Look> {
+        let best = looks.iter().filter(|look| look.moved > 0.0).max_by(|a, b| a.promise.total_cmp(&b.promise))?;
+        let range = glance.candidate.free[0].range;
+        let at = nominal + best.multiple * (best.at[0] - nominal);
+        let is_inside = best.multiple.is_finite() && (range.least..=range.greatest).contains(&at);
+        // What is nominally without limit is no multiple of anything.
+        if is_inside && nominal.abs() < UNLIMITED { self.look(sight, glance, &[at]) } else { None }
+    }
+
+    /// Looks at starts that move the residuals the more the later they come.
+    fn look_outward(&self, sight: &Sight<'_>, glance: &Glance, starts: &[f64], looks: &mut Vec<Look>) {
+        let (least, most) = (LEAST_MOVED * PROMISING * sight.excess, MOST_MOVED * sight.excess);
+        let (mut low, mut high) = (0, starts.len());
+        let mut seen: Vec<Option<Look>> = starts.iter().map(|_| None).collect();
+        while low < high {
+            let middle = (low + high) / 2;
+            let Some(look) = self.look(sight, glance, &[starts[middle]]) else { return };
+            if look.moved < least {
+                low = middle + 1
+            } else {
+                high = middle
+            }
+            seen[middle] = Some(look);
+        }
+        for (place, start) in starts.iter().enumerate().skip(low) {
+            if seen[place].is_none() {
+                seen[place] = self.look(sight, glance, &[*start]);
+            }
+            if seen[place].as_ref().is_none_or(|look| look.moved > most) {
+                break;
+            }
+        }
+        looks.extend(seen.into_iter().flatten());
+    }
+
+    /// All starts. Those of a single parameter go from small effects to large ones: once some in a row cost far more than no effect at
+    /// all, the larger ones are not tried.
+    fn look_at_all(&self, sight: &Sight<'_>, glance: &Glance) -> Vec<Look> {
+        const HOPELESS: f64 = 2.0;
+        const IN_A_ROW: usize = 3;
+        let without = sum_of_squares(sight.here);
+        let mut looks: Vec<Look> = Vec::with_capacity(glance.candidate.starts.len());
+        let mut hopeless = 0;
+        for look in glance.candidate.starts.iter().filter_map(|start| self.look(sight, glance, start)) {
+            hopeless = if look.cost > HOPELESS * without { hopeless + 1 } else { 0 };
+            looks.push(look);
+            if glance.candidate.free.len() == 1 && hopeless == IN_A_ROW {
+                break;
+            }
+        }
+        looks
+    }
+
+    /// A few steps downhill.
+    fn fit(&self, glance: Glance) -> Option<Glance> {
+        let ranges: Vec<_> = glance.candidate.ranges().collect();
+        let residuals = |at: &[f64]| self.residuals(&glance, at);
+        let fitted = least_squares(&residuals, &glance.at, &ranges, 4 + 4 * ranges.len() as u32)?;
+        let gain = sum_of_squares(&glance.beside.here) - fitted.cost;
+        Some(Glance { is_promising: gain > PROMISING * self.excess, at: fitted.at, gain, ..glance })
+    }
+
+    fn fit_closely(&self, glance: &Glance) -> Option<Trial> {
+        let ranges: Vec<_> = glance.candidate.ranges().collect();
+        if self.bench.is_rugged() {
+            let start = self.all(glance, &glance.at);
+            return self.bench.fit(&glance.set, &[start], anew(self.bench.ranges(&glance.set).len()));
+        }
+        let residuals = |at: &[f64]| self.residuals(glance, at);
+        let starts: Vec<Vec<f64>> = [&glance.at].into_iter().chain(&glance.others).cloned().collect();
+        let effort = Effort { starts: 2, budget: 20 + 12 * ranges.len() as u32 };
+        let found = search(&residuals, &starts, &ranges, effort)?;
+        self.trial_at(glance, &found.at)
+    }
+
+    fn trial(&self, glance: &Glance) -> Option<Trial> {
+        self.trial_at(glance, &glance.at)
+    }
+
+    /// With the nuisances as they follow, or where they are held, whichever costs less.
+    fn trial_at(&self, glance: &Glance, at: &[f64]) -> Option<Trial> {
+        let held = self.all(glance, at);
+        let there = self.bench.trial(&glance.set, held.clone())?;
+        let followed = glance.beside.follow(&self.bench.residuals(&glance.set, &held)?);
+        if followed == glance.beside.carried {
+            return Some(there);
+        }
+        let own = held.len() - followed.len();
+        let other = self.bench.trial(&glance.set, [&held[..own], &followed].concat());
+        Some(match other {
+            Some(other) if other.cost < there.cost => other,
+            _ => there,
+        })
+    }
+}
