@@ -88,6 +88,7 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
     let key = arguments.key.clone().unwrap_or_else(|| sealed_answers::default_key(&arguments.folder));
     let answers = sealed_answers::open(&arguments.folder, &key, &out).map_err(|error| Failure::of(&error))?;
     let (seed, answers) = exam::read_answers(&answers).map_err(|error| Failure::of(&error))?;
+    ask_oracles(arguments, &out, &answers)?;
     let (judged, failed) = score(&out, &cases, &answers);
     let exam = Exam::new(seed, today(), judged, failed);
     tell(arguments, &out, &exam)?;
@@ -106,13 +107,44 @@ fn is_done(folder: &Path) -> bool {
 
 fn diagnose_all(arguments: &ExamArguments, out: &Path, cases: &[String]) -> Result<(), Failure> {
     let left: Vec<&String> = cases.iter().filter(|case| !is_done(&out.join(case))).collect();
-    let next = Mutex::new(left.iter());
+    side_by_side(arguments, &left, &|case| {
+        diagnose(arguments, &arguments.folder.join(case), &out.join(case), None)?;
+        words::tell(format!("{case}: {}", answered(&out.join(case))));
+        Ok(())
+    })
+}
+
+/// Where the report of an oracle is, in the folder of its case.
+const ORACLE: &str = "oracle";
+
+/// Lets an oracle look at each case with one effect that counts: it is told the effect and its device, and only fits it. How far the
+/// gap then shrinks is as far as it can.
+fn ask_oracles(arguments: &ExamArguments, out: &Path, answers: &[exam::Answer]) -> Result<(), Failure> {
+    let is_left = |answer: &&exam::Answer| {
+        let folder = out.join(&answer.case);
+        answer.has_an_oracle() && is_done(&folder) && !is_done(&folder.join(ORACLE))
+    };
+    let left: Vec<&exam::Answer> = answers.iter().filter(is_left).collect();
+    side_by_side(arguments, &left, &|answer| {
+        let (case, out) = (arguments.folder.join(&answer.case), out.join(&answer.case).join(ORACLE));
+        diagnose(arguments, &case, &out, answer.effects.first())?;
+        words::tell(format!("{}, told its effect: {}", answer.case, answered(&out)));
+        Ok(())
+    })
+}
+
+/// Does `what` with each, as many at a time as are asked for.
+fn side_by_side<T: Sync>(
+    arguments: &ExamArguments,
+    all: &[&T],
+    what: &(dyn Fn(&T) -> Result<(), Failure> + Sync),
+) -> Result<(), Failure> {
+    let next = Mutex::new(all.iter());
     let jobs = arguments.jobs.max(1);
     let worker = || -> Result<(), Failure> {
         loop {
-            let Some(case) = next.lock().ok().and_then(|mut left| left.next().copied()) else { return Ok(()) };
-            diagnose(arguments, &arguments.folder.join(case), &out.join(case), jobs)?;
-            words::tell(format!("{case}: {}", answered(&out.join(case))));
+            let Some(one) = next.lock().ok().and_then(|mut left| left.next().copied()) else { return Ok(()) };
+            what(one)?;
         }
     };
     std::thread::scope(|scope| {
@@ -122,8 +154,14 @@ fn diagnose_all(arguments: &ExamArguments, out: &Path, cases: &[String]) -> Resu
     })
 }
 
-/// Diagnoses one case in a process of its own. What keeps it from a verdict is written in the place of a report.
-fn diagnose(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) -> Result<(), Failure> {
+/// Diagnoses one case in a process of its own, which may be told its effect. What keeps it from a verdict is written in the place of
+/// a report.
+fn diagnose(
+    arguments: &ExamArguments,
+    case: &Path,
+    out: &Path,
+    told: Option<&exam::TrueEffect>,
+) -> Result<(), Failure> {
     std::fs::create_dir_all(out)?;
     for old in [FAILED, REPORT] {
         if out.join(old).exists() {
@@ -131,7 +169,7 @@ fn diagnose(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) -> 
         }
     }
     let started = Instant::now();
-    let end = diagnosed(arguments, case, out, jobs);
+    let end = diagnosed(arguments, case, out, told);
     std::fs::write(out.join(SECONDS), format!("{:.3}\n", started.elapsed().as_secs_f64()))?;
     let why = match end.and_then(|()| read(out)) {
         Ok(report) if !report.incomplete => return Ok(()),
@@ -141,7 +179,12 @@ fn diagnose(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) -> 
     Ok(std::fs::write(out.join(FAILED), format!("{why}\n"))?)
 }
 
-fn diagnosed(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) -> Result<(), String> {
+fn diagnosed(
+    arguments: &ExamArguments,
+    case: &Path,
+    out: &Path,
+    told: Option<&exam::TrueEffect>,
+) -> Result<(), String> {
     let model = std::fs::read_to_string(case.join("model")).map_err(|error| format!("its model: {error}"))?;
     let model = model.trim();
     let beside = case.join(model);
@@ -161,7 +204,8 @@ fn diagnosed(arguments: &ExamArguments, case: &Path, out: &Path, jobs: usize) ->
         .arg(trace("holdout"))
         .arg("--out")
         .arg(out)
-        .env("RAYON_NUM_THREADS", (cores / jobs).max(1).to_string())
+        .args(told.iter().flat_map(|told| ["--effects", &told.effect, "--devices", &told.device]))
+        .env("RAYON_NUM_THREADS", (cores / arguments.jobs.max(1)).max(1).to_string())
         .stdout(Stdio::null())
         .stderr(std::fs::File::create(out.join("log.txt")).map_err(|error| format!("its log: {error}"))?)
         .spawn()
@@ -206,8 +250,14 @@ fn score(out: &Path, cases: &[String], answers: &[exam::Answer]) -> (Vec<Judged>
             Err(_) => read(&folder),
         };
         match report {
-            Ok(report) => judged.push(exam::judge(answer, &report, seconds.unwrap_or_default())),
-            Err(why) => drop(failed.insert(case.clone(), why)),
+            Ok(report) => {
+                let oracle = read(&folder.join(ORACLE)).ok();
+                judged.push(exam::judge(answer, &report, seconds.unwrap_or_default()).beside(oracle.as_ref()));
+            }
+            Err(why) => {
+                judged.push(exam::unanswered(answer, seconds.unwrap_or_default()));
+                failed.insert(case.clone(), why);
+            }
         }
     }
     (judged, failed)
@@ -239,6 +289,7 @@ fn text(exam: &Exam) -> String {
         ("outside right", &rates.outside_right),
         ("outside sure, wrong", &rates.outside_sure_wrong),
         ("both of two", &rates.both_of_two),
+        ("shrink, of oracle's", &rates.shrink_of_oracle),
         ("interval cover", &rates.interval_cover),
         ("calibration error", &rates.ece),
         ("faint sure, wrong", &rates.faint_sure_wrong),

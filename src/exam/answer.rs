@@ -72,6 +72,13 @@ pub struct Answer {
     pub effects: Vec<TrueEffect>,
 }
 
+impl Answer {
+    /// Whether there is one effect of the library to be told to an oracle, of a magnitude that counts.
+    pub fn has_an_oracle(&self) -> bool {
+        self.sort == Sort::Single && self.magnitude.counts() && self.effects.len() == 1
+    }
+}
+
 /// All of them, with the exam's seed.
 #[derive(Deserialize)]
 struct Answers {

@@ -76,6 +76,20 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
     }
 }
 
+/// A case that no report answers: wrong in all that applies to it.
+pub fn unanswered(answer: &Answer, seconds: f64) -> Judged {
+    let judged = judge(answer, &Report::new(Verdict::NotTestable), seconds);
+    Judged { verdict: "no answer".to_owned(), shrink: None, ..judged }
+}
+
+impl Judged {
+    /// With what an oracle's report shrank.
+    pub fn beside(self, oracle: Option<&Report>) -> Judged {
+        let shrink = oracle.and_then(|report| report.shrink.ratio).map(|ratio| 1.0 - ratio);
+        Judged { oracle_shrink: shrink, ..self }
+    }
+}
+
 fn in_words(device: &str, component: Option<&str>, effect: &str) -> String {
     component.map_or_else(|| format!("{device}: {effect}"), |component| format!("{device}.{component}: {effect}"))
 }

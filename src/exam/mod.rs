@@ -12,6 +12,6 @@ mod rates;
 mod tests;
 
 pub use answer::{Answer, AnswersError, Magnitude, Sort, TrueEffect, read_answers};
-pub use judge::{Judged, judge};
+pub use judge::{Judged, judge, unanswered};
 pub use page::page;
 pub use rates::{Exam, Rate, Rates, wilson};

@@ -86,7 +86,7 @@ pub struct Exam {
 }
 
 impl Exam {
-    /// Of all that was judged. `failed` counts as wrong in no rate: it is told beside them.
+    /// Of all that was judged. What `failed` is among it as a case without an answer, which is wrong; here stands why.
     pub fn new(seed: u64, date: String, judged: Vec<Judged>, failed: BTreeMap<String, String>) -> Exam {
         let of = |sort: Sort| judged.iter().filter(move |one| one.sort == sort);
         let counts = |one: &&Judged| one.magnitude.counts();
@@ -118,7 +118,7 @@ impl Exam {
             schema: "kinetwin-exam/1".to_owned(),
             seed,
             date,
-            cases: judged.len() + failed.len(),
+            cases: judged.len() + failed.keys().filter(|case| judged.iter().all(|one| one.case != **case)).count(),
             rates,
             by_magnitude: grouped(&judged, |one| Some(one.magnitude.name().to_owned())),
             by_device: grouped(&judged, |one| one.truth.first()?.split(['.', ':']).next().map(str::to_owned)),

@@ -101,11 +101,13 @@ fn rates_count_what_they_are_about() {
         judge(&none("2"), &sure, 3.0),
         judge(&outside, &report(Verdict::Unknown, &[]), 2.0),
         judge(&faint, &sure, 2.0),
+        unanswered(&none("5"), 2.0),
     ];
     let failed = BTreeMap::from([("5".to_owned(), "no report".to_owned())]);
     let exam = Exam::new(7, "2026-01-31".to_owned(), judged, failed);
     let Rates { false_alarm, outside_right, outside_sure_wrong, single_right, faint_sure_wrong, .. } = exam.rates;
-    assert_eq!((false_alarm.value, false_alarm.n), (Some(0.5), 2));
+    // What has no answer is wrong.
+    assert_eq!((false_alarm.value, false_alarm.n), (Some(2.0 / 3.0), 3));
     assert_eq!((outside_right.value, outside_sure_wrong.value), (Some(1.0), Some(0.0)));
     assert_eq!((single_right.value, faint_sure_wrong.value), (None, Some(1.0)), "faint ones have a rate of their own");
     assert_eq!((exam.cases, exam.seconds_per_case), (5, Some(2.0)));

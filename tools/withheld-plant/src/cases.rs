@@ -1,13 +1,16 @@
 //! Cases: machines as they are built, listened to as it happens, with something wrong or nothing.
 
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
+use std::rc::Rc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::catalogue::{ENTRIES, Entry, Spot};
 use crate::chance::Dice;
-use crate::magnitude::{Magnitude, distance};
+use crate::magnitude::{Hidden, Magnitude, distance};
 use crate::plant::{Command, Plant};
 use crate::quirk::Quirk;
 use crate::record::{self, Seen, Surroundings};
@@ -176,7 +179,7 @@ impl Deck {
             let mut all: Vec<_> = all.flat_map(|(at, entry)| entry.spots.iter().map(move |spot| (at, *spot))).collect();
             dice.shuffle(&mut all);
             // Each effect once before any comes at its second spot.
-            let mut turns = std::collections::BTreeMap::new();
+            let mut turns = BTreeMap::new();
             let turn = |(at, _): &(usize, Spot)| {
                 let turn = turns.entry(*at).or_insert(0);
                 *turn += 1;
@@ -198,16 +201,20 @@ struct Bench {
     around: Surroundings,
     scripts: [Vec<Command>; 2],
     seed: u64,
+    tolerance: f64,
+    /// By device, what its tolerances hide.
+    hidden: RefCell<BTreeMap<String, Rc<Hidden>>>,
 }
 
 impl Bench {
     fn new(seed: u64, conditions: Conditions) -> Bench {
         let mut dice = Dice::new(seed, 2);
-        let built = RigParameters::built(if conditions.exact { 0.0 } else { TOLERANCE }, &mut dice);
+        let tolerance = if conditions.exact { 0.0 } else { TOLERANCE };
+        let built = RigParameters::built(tolerance, &mut dice);
         let around = Surroundings::draw(&mut dice);
         let around = if conditions.prompt { around.prompt() } else { around };
         let scripts = [Part::Train, Part::HeldOut].map(|part| record::heard(&script::program(part, &mut dice)));
-        Bench { built, around, scripts, seed }
+        Bench { built, around, scripts, seed, tolerance, hidden: RefCell::default() }
     }
 
     fn run(&self, part: Part, quirks: &[Quirk], around: &Surroundings) -> (Plant, Seen) {
@@ -220,7 +227,30 @@ impl Bench {
     /// How far these effects carry the training recording from what it would be.
     fn distance(&self, quirks: &[Quirk], healthy: &Seen) -> f64 {
         let (plant, seen) = self.run(Part::Train, quirks, &self.around);
-        distance(&seen, healthy, &plant.signals, &self.around)
+        let devices: BTreeSet<&str> = quirks.iter().map(|quirk| quirk.device.as_str()).collect();
+        let hidden: Vec<Rc<Hidden>> = devices.into_iter().map(|device| self.hidden(device, healthy)).collect();
+        distance(&seen, healthy, &plant.signals, &self.around, &hidden)
+    }
+
+    /// What a device's tolerances hide: measured once.
+    fn hidden(&self, device: &str, healthy: &Seen) -> Rc<Hidden> {
+        if let Some(known) = self.hidden.borrow().get(device) {
+            return known.clone();
+        }
+        // The standard deviation of what is drawn anywhere between two bounds.
+        let share = self.tolerance / 3.0_f64.sqrt();
+        let larger = self.built.with_each_larger(device, share);
+        let larger = if share > 0.0 { larger } else { Vec::new() };
+        let run = |built: &RigParameters| {
+            let mut plant = built.plant(&[], self.seed ^ Part::Train as u64);
+            let (script, part) = (&self.scripts[Part::Train as usize], Part::Train);
+            record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64)
+        };
+        let moved: Vec<Seen> = larger.iter().map(run).collect();
+        let signals = self.built.plant(&[], 0).signals;
+        let hidden = Rc::new(Hidden::new(&moved, healthy, &signals, &self.around));
+        self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
+        hidden
     }
 
     /// The effect with the strength that shows as much as it is to.

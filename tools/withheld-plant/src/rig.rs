@@ -56,19 +56,51 @@ impl RigParameters {
     /// (an encoder's lines, the instants of the boxes) is exact.
     pub fn built(tolerance: f64, dice: &mut Dice) -> RigParameters {
         let mut built = RigParameters::nominal();
-        let RigParameters { belt, pusher, robot, gripper, servo, motor } = &mut built;
-        let mut measures = vec![&mut belt.acceleration, &mut belt.box_length];
-        measures.extend(&mut belt.barriers);
-        measures.extend([&mut pusher.stroke, &mut pusher.extend_speed, &mut pusher.retract_speed]);
-        measures.push(&mut pusher.limit_tolerance);
-        measures.extend(robot.fastest.iter_mut().chain(&mut robot.steepest).chain(&mut robot.tolerance));
-        measures.extend([&mut gripper.build_up, &mut gripper.release, &mut motor.acceleration]);
-        measures.extend([&mut servo.mass, &mut servo.viscous, &mut servo.position_gain]);
-        measures.extend([&mut servo.velocity_gain, &mut servo.force_limit]);
-        for measure in measures {
+        for (_, measure) in built.measures() {
             *measure *= 1.0 + dice.between(-tolerance, tolerance);
         }
         built
+    }
+
+    /// All measures that are built to a tolerance, each with its device.
+    fn measures(&mut self) -> Vec<(&'static str, &mut f64)> {
+        let RigParameters { belt, pusher, robot, gripper, servo, motor } = self;
+        let mut belts = vec![&mut belt.acceleration, &mut belt.box_length];
+        belts.extend(&mut belt.barriers);
+        let pushers =
+            vec![&mut pusher.stroke, &mut pusher.extend_speed, &mut pusher.retract_speed, &mut pusher.limit_tolerance];
+        let robots = robot.fastest.iter_mut().chain(&mut robot.steepest).chain(&mut robot.tolerance).collect();
+        let grippers = vec![&mut gripper.build_up, &mut gripper.release];
+        let servos = vec![
+            &mut servo.mass,
+            &mut servo.viscous,
+            &mut servo.position_gain,
+            &mut servo.velocity_gain,
+            &mut servo.force_limit,
+        ];
+        let each: [(&'static str, Vec<&mut f64>); 6] = [
+            ("Belt", belts),
+            ("Pusher", pushers),
+            ("Robot", robots),
+            ("Gripper", grippers),
+            ("Motor", vec![&mut motor.acceleration]),
+            ("Axis", servos),
+        ];
+        each.into_iter().flat_map(|(device, all)| all.into_iter().map(move |measure| (device, measure))).collect()
+    }
+
+    /// The same with each measure of a device larger by `share` of itself, one at a time.
+    pub fn with_each_larger(&self, device: &str, share: f64) -> Vec<RigParameters> {
+        let count = self.clone().measures().len();
+        let larger = |place: usize| {
+            let mut other = self.clone();
+            let mut all = other.measures();
+            let (of, measure) = &mut all[place];
+            let is_meant = *of == device;
+            **measure *= 1.0 + share;
+            is_meant.then_some(other)
+        };
+        (0..count).filter_map(larger).collect()
     }
 
     /// The plant with `quirks`; `seed` is that of what befalls its boxes.
