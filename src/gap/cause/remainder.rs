@@ -28,8 +28,6 @@ pub struct Remainder {
     pub depends_on: Vec<String>,
     /// Whether it is more than noise and a few per cent of the gap.
     pub is_large: bool,
-    /// The greatest root mean square that it has in any level, in floors.
-    pub above_floor: f64,
     /// Whether it is large and depends on something.
     pub is_significant: bool,
     /// In which share of the draws of blocks it is.
@@ -67,16 +65,7 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
             names.push(name.clone());
         }
     }
-    let levels = score.signals.iter().filter(|signal| signal.level.is_some());
-    let above_floor = levels.map(|signal| signal.rms / signal.floor.max(1e-12)).fold(0.0, f64::max);
-    Some(Remainder {
-        share,
-        is_large,
-        above_floor,
-        is_significant: is_large && !names.is_empty(),
-        depends_on: names,
-        certainty,
-    })
+    Some(Remainder { share, is_large, is_significant: is_large && !names.is_empty(), depends_on: names, certainty })
 }
 
 /// A quantity that a residual may depend on, sample by sample.

@@ -54,9 +54,8 @@ impl Finding {
 /// What of a gap must be explained for the answer to be more than unknown.
 const WORTH_HAVING: f64 = 0.3;
 
-/// What may be left of a gap that is explained, whatever it goes with: a share of it, or of a level in floors.
+/// What may be left of a gap that is explained, whatever it goes with.
 const MUCH: f64 = 0.25;
-const MUCH_IN_FLOORS: f64 = 1.5;
 
 /// Looks at one device. `None` where its reports are not in the recordings.
 pub(super) fn find(
@@ -101,15 +100,11 @@ pub(super) fn find(
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
         () if finding.remainder.is_significant => Conclusion::Partial,
         // Much is left that goes with nothing that is looked for.
-        () if finding.remainder.is_large && is_much(&finding.remainder) => Conclusion::Partial,
+        () if finding.remainder.is_large && finding.remainder.share > MUCH => Conclusion::Partial,
         () => Conclusion::Explained,
     };
     finding.replays = bench.replays();
     Some(finding)
-}
-
-fn is_much(remainder: &Remainder) -> bool {
-    remainder.share > MUCH || remainder.above_floor > MUCH_IN_FLOORS
 }
 
 /// Whether the bare model costs more than noise and the estimate of it allow.
