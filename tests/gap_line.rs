@@ -132,7 +132,6 @@ fn three_minutes_of_a_line_as_its_model_has_it_show_no_gap() {
 
 const SLIP: Case = case("Conveyor5", ("transmission", "belt-slip", ""), "ratio", 0.06);
 const LATE_SENSOR: Case = case("Conveyor6", ("sensor", "on-delay", "lightBarrierB"), "time", 0.08);
-const TRANSFER: Case = case("Conveyor4", ("process", "transfer-slip", ""), "ratio", 0.3);
 
 #[test]
 fn a_belt_that_slips_is_no_late_barrier() {
@@ -181,59 +180,4 @@ fn a_late_pusher_is_not_taken_for_the_belt_that_it_pushes_from() {
         ],
         45,
     );
-}
-
-/// All that the line can show.
-const SWEEP: [Case; 26] = [
-    SLIP,
-    LATE_SENSOR,
-    TRANSFER,
-    case("Curve1", ("transmission", "belt-slip", ""), "ratio", 0.06),
-    case("Conveyor7", ("transmission", "scale-error", ""), "ratio", 0.04),
-    case("Conveyor5", ("actuator", "gain-error", ""), "gain", 0.95),
-    case("Conveyor3", ("actuator", "first-order-lag", ""), "time_constant", 0.15),
-    case("Conveyor3", ("actuator", "acceleration-limit", ""), "limit", 0.5),
-    case("Conveyor6", ("actuator", "velocity-limit", ""), "limit", 0.5),
-    case("Conveyor3", ("command-link", "dead-time", ""), "time", 0.12),
-    case("Conveyor3", ("actuator", "switch-on-delay", ""), "time", 0.1),
-    case("Conveyor3", ("actuator", "switch-off-delay", ""), "time", 0.1),
-    case("Conveyor3", ("actuator", "coasting", ""), "deceleration", 0.4),
-    case("Conveyor8", ("actuator", "direction-asymmetry", ""), "asymmetry", 0.08),
-    case("Conveyor5", ("sensor", "off-delay", "lightBarrierB"), "time", 0.08),
-    case("Conveyor6", ("sensor", "hysteresis", "lightBarrierB"), "width", 0.03),
-    case("Conveyor6", ("sensor", "blind-range", "lightBarrierB"), "length", 0.03),
-    case("Conveyor3", ("process", "part-slip", ""), "acceleration", 0.4),
-    case("Conveyor3", ("process", "back-pressure", ""), "coefficient", 0.2),
-    case("LoadingBay5", ("process", "part-length-error", ""), "length", 0.03),
-    case("LoadingBay7", ("process", "part-spacing-error", ""), "time", 1.5),
-    case("Pusher1", ("actuator", "velocity-limit", ""), "limit", 1.7),
-    case("Pusher1", ("actuator", "load-dependent-speed", ""), "coefficient", 0.1),
-    case("Pusher2", ("command-link", "dead-time", ""), "time", 0.06),
-    case("Robot", ("actuator", "acceleration-limit", "Y"), "limit", 3.2),
-    case("Gripper1", ("process", "vacuum-build-up", ""), "time", 0.1),
-];
-
-#[test]
-#[ignore = "half an hour: prints the table of what each effect on the line is taken for, all effects being looked for"]
-fn what_each_effect_on_the_line_is_taken_for() {
-    for case in SWEEP {
-        let found = located(Some(&case), 60).join(", ");
-        let report = diagnosed(&case, 60, &[]);
-        let causes = report.cause.iter().map(|cause| {
-            let values = cause.parameters.iter().map(|found| format!("{} {:.4}", found.name, found.value));
-            let class = cause.class.iter().map(|member| member.effect.as_str()).collect::<Vec<_>>().join("/");
-            format!("{class} {}", values.collect::<Vec<_>>().join(" "))
-        });
-        println!(
-            "| {} {} {} {} {} | {found} | {} | {} | {} |",
-            case.device,
-            case.effect,
-            case.component,
-            case.parameter,
-            case.value,
-            report.verdict,
-            causes.collect::<Vec<_>>().join("; "),
-            if is_named(&report, &case) { "right" } else { "" },
-        );
-    }
 }

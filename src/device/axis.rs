@@ -1,7 +1,7 @@
 //! One axis of a robot on its profile, with what stands in its signal path.
 
 use super::law::profile::{Limits, Profile};
-use super::law::{SAME_INSTANT_S, SAME_VALUE, STANDSTILL};
+use super::law::{SAME_INSTANT_S, SAME_VALUE, STANDSTILL, moves};
 use super::path::{Bounds, Moment, Motion, Stages};
 
 /// An axis, its motor's side and its load's side.
@@ -15,6 +15,19 @@ pub(super) struct Axis {
     pub stages: Stages,
     motor: Motion,
     load: Motion,
+}
+
+/// How many of a robot's axes move.
+pub(super) fn moving(axes: &[Axis]) -> u32 {
+    axes.iter().map(|axis| u32::from(moves(axis.motor().velocity))).sum()
+}
+
+/// A robot's axes are on one supply with each other, and with so many others that move.
+pub(super) fn share(axes: &mut [Axis], others: u32) {
+    let all = others + moving(axes);
+    for axis in axes {
+        axis.shared(all - u32::from(moves(axis.motor().velocity)));
+    }
 }
 
 impl Axis {

@@ -1,7 +1,6 @@
 //! `kinetwin.CartesianRobot`: three linear axes and one rotary, each on its own trapezoidal profile.
 
-use crate::device::axis::Axis;
-use crate::device::law::moves;
+use crate::device::axis::{self, Axis};
 use crate::device::law::profile::Limits;
 use crate::device::path::Stages;
 use crate::device::table::{
@@ -152,15 +151,12 @@ impl Device for CartesianRobot {
     }
 
     fn moving(&self) -> u32 {
-        self.axes.iter().map(|axis| u32::from(moves(axis.motor().velocity))).sum()
+        axis::moving(&self.axes)
     }
 
     /// The axes are on one supply, too.
     fn share(&mut self, others: u32) {
-        let all = others + self.moving();
-        for axis in &mut self.axes {
-            axis.shared(all - u32::from(moves(axis.motor().velocity)));
-        }
+        axis::share(&mut self.axes, others);
     }
 
     fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
