@@ -342,6 +342,11 @@ impl Client {
     }
 
     fn text(&mut self, now: Instant, text: &str) {
+        if self.takes_values()
+            && let Some(staged) = self.exchange.receive_plain(text, self.settings.limits.values)
+        {
+            return self.outbox.event(ClientEvent::Values(staged));
+        }
         match Message::decode(text) {
             Err(error) => self.reject(text, error.to_string()),
             Ok(Message::ConnectReply(reply)) => self.connect_reply(now, &reply),
@@ -394,8 +399,13 @@ impl Client {
         }
     }
 
+    /// Whether the session stands, or is being ended.
+    fn takes_values(&self) -> bool {
+        matches!(self.state, State::Established | State::Disconnecting { .. })
+    }
+
     fn values(&mut self, text: &str, entries: &[Entry<'_>]) {
-        if !matches!(self.state, State::Established | State::Disconnecting { .. }) {
+        if !self.takes_values() {
             return self.reject(text, "values came before the server accepted the session".to_owned());
         }
         if let Some(reason) = self.settings.limits.refuse(entries.len()) {

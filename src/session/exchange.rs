@@ -3,10 +3,12 @@
 
 use std::sync::Arc;
 
+use memchr::memchr2;
+
 use super::Staged;
 use crate::signal_map::{Direction, RegisterId, Signal, SignalMap};
-use crate::value::{Quantity, Unit, Value};
-use crate::wire::{Entry, Fault, Message, ResultCode, SendValueText, TextForm, read_value};
+use crate::value::{ElementaryType, Quantity, SignalType, Unit, Value};
+use crate::wire::{Entry, Fault, Message, Raw, ResultCode, SendValueText, TextForm, read_value};
 
 /// The longest `SendValueReply` sent, in bytes: half the limit of a peer that keeps the default. A message of a megabyte
 /// with nothing but faults must not be answered with four.
@@ -27,6 +29,10 @@ pub(crate) struct Exchange {
     /// For each register, the one that followed it in the last message that held it: a peer says its signals in the same
     /// order again and again, and comparing a name is faster than looking it up.
     next: Vec<u32>,
+    /// The one that the last message began with.
+    first: u32,
+    /// How many values the last message had.
+    common: usize,
     /// For each register, the beginning of its entry in a message.
     begun: Vec<Box<str>>,
 }
@@ -55,7 +61,7 @@ impl Exchange {
         let seen = vec![(0, 0); map.signals().len()];
         let next = (1..=map.signals().len() as u32).collect();
         let begun = map.signals().iter().map(|signal| SendValueText::begin(&signal.name)).collect();
-        Exchange { map, ours, seen, messages: 0, next, begun }
+        Exchange { map, ours, seen, messages: 0, next, first: 0, common: 0, begun }
     }
 
     pub(super) fn map(&self) -> &SignalMap {
@@ -94,14 +100,63 @@ impl Exchange {
         Receipt { outcome, reply, nameless }
     }
 
+    /// As [`receive`](Self::receive), of a message that is spelt as this project spells one, is free of faults, and sets no
+    /// signal twice: what nearly every message is. `None` where it is not, or holds more than `limit` values.
+    ///
+    /// One pass over the text: what an entry begins with is compared with what it begins with where this end writes it.
+    pub(super) fn receive_plain(&mut self, text: &str, limit: usize) -> Option<Staged> {
+        let mut rest = text.strip_prefix(SendValueText::HEAD)?;
+        self.messages += 1;
+        let mut values = Vec::with_capacity(self.common);
+        let mut last = None;
+        loop {
+            let guess = self.guess(last);
+            let (register, value) = match self.begun.get(guess.index()).and_then(|begun| rest.strip_prefix(&**begun)) {
+                Some(value) => (guess, value),
+                None => {
+                    let register = self.map.register(plain_name(rest)?)?;
+                    (register, rest.strip_prefix(&*self.begun[register.index()])?)
+                }
+            };
+            self.follow(register, &mut last);
+            let seen = std::mem::replace(&mut self.seen[register.index()], (self.messages, values.len()));
+            let signal = self.map.signal(register);
+            if signal.direction == self.ours || seen.0 == self.messages || values.len() == limit {
+                return None;
+            }
+            let (value, after) = leading_value(value, signal.ty)?;
+            within_range(signal, &value).ok()?;
+            values.push((register, value));
+            let after = after.strip_prefix('}')?;
+            match after.strip_prefix(',') {
+                Some(after) => rest = after,
+                None if after == "]}" => break,
+                None => return None,
+            }
+        }
+        self.common = values.len();
+        Some(Staged { values, text: one_line(text), faults: Vec::new() })
+    }
+
+    /// The register that probably follows `last`, or that a message probably begins with.
+    fn guess(&self, last: Option<RegisterId>) -> RegisterId {
+        RegisterId(last.map_or(self.first, |last| self.next[last.index()]))
+    }
+
+    /// Remembers that `register` followed `last`, or that the message began with it; it is the last from now on.
+    fn follow(&mut self, register: RegisterId, last: &mut Option<RegisterId>) {
+        match last.replace(register) {
+            Some(last) => self.next[last.index()] = register.0,
+            None => self.first = register.0,
+        }
+    }
+
     /// The register of the signal called `name`, after that of the entry before it.
     fn look_up(&mut self, name: &str, last: &mut Option<RegisterId>) -> Option<RegisterId> {
-        let guess = last.map_or(0, |last| self.next[last.index()]);
-        let guessed = self.map.signals().get(guess as usize).is_some_and(|signal| signal.name == name);
-        let register = if guessed { RegisterId(guess) } else { self.map.register(name)? };
-        if let Some(last) = last.replace(register) {
-            self.next[last.index()] = register.0;
-        }
+        let guess = self.guess(*last);
+        let guessed = self.map.signals().get(guess.index()).is_some_and(|signal| signal.name == name);
+        let register = if guessed { guess } else { self.map.register(name)? };
+        self.follow(register, last);
         Some(register)
     }
 
@@ -150,12 +205,29 @@ impl Exchange {
     }
 }
 
+/// The value of type `ty` that `text` begins with, and what follows it.
+fn leading_value(text: &str, ty: SignalType) -> Option<(Value, &str)> {
+    // Most signals of a plant are these, and nothing but these two words is one.
+    if ty == SignalType::scalar(ElementaryType::Bool) {
+        let is = |word, value| text.strip_prefix(word).map(|after| (Value::Bool(value), after));
+        return is("true", true).or_else(|| is("false", false));
+    }
+    let (raw, after) = Raw::leading(text)?;
+    read_value(raw, ty, TextForm::Base64).ok().map(|value| (value, after))
+}
+
+/// The name in an entry that `text` begins with, where it is written without an escape.
+fn plain_name(text: &str) -> Option<&str> {
+    text.strip_prefix("{\"name\":\"")?.split_once('"').map(|(name, _)| name)
+}
+
 /// A message as one line, so that it can stand in a trace. Within JSON, a line break stands only where a blank may.
 pub(super) fn one_line(text: &str) -> String {
     let text = text.trim();
-    // Every message goes this way, and hardly one has a line break: a pass without an early end is the fast one.
-    let broken = text.bytes().fold(false, |broken, byte| broken | (byte == b'\n') | (byte == b'\r'));
-    if broken { text.replace(['\n', '\r'], " ") } else { text.to_owned() }
+    match memchr2(b'\n', b'\r', text.as_bytes()) {
+        Some(_) => text.replace(['\n', '\r'], " "),
+        None => text.to_owned(),
+    }
 }
 
 /// Why a message brought no value.

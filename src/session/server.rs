@@ -196,6 +196,11 @@ impl Server {
     }
 
     fn text(&mut self, text: &str) {
+        if self.is_established()
+            && let Some(staged) = self.exchange.receive_plain(text, self.settings.limits.values)
+        {
+            return self.outbox.event(ServerEvent::Values(staged));
+        }
         match Message::decode(text) {
             Err(error) => self.reject(text, error.to_string()),
             Ok(Message::Connect(connect)) if connect.enable => self.connect(&connect),

@@ -15,7 +15,8 @@ pub struct SendValueText {
 }
 
 impl SendValueText {
-    const HEAD: &'static str = "{\"SendValue\":[";
+    /// What every one begins with.
+    pub(crate) const HEAD: &'static str = "{\"SendValue\":[";
 
     /// An empty message with room for `entries` values of common length.
     pub fn with_capacity(entries: usize) -> SendValueText {

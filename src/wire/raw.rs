@@ -42,6 +42,12 @@ impl<'a> Raw<'a> {
         Ok(raw)
     }
 
+    /// The value that `text` begins with, at its first byte, and what follows it; `None` where it begins with none.
+    pub fn leading(text: &'a str) -> Option<(Raw<'a>, &'a str)> {
+        let raw = Scanner::new(text).value().ok()?;
+        text.strip_prefix(raw.0).map(|rest| (raw, rest))
+    }
+
     /// The value that `text` is; the scanner has just read it.
     pub(super) fn scanned(text: &'a str) -> Raw<'a> {
         Raw(text)

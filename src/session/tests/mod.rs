@@ -5,6 +5,7 @@ mod dice;
 mod frames;
 mod ours;
 mod pair;
+mod plain;
 mod querying;
 mod sweep;
 mod values;
