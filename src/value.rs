@@ -279,21 +279,21 @@ impl Value {
     /// The value of type `element` nearest to `number`: rounded and saturated for integers, `!= 0` for BOOL, seconds
     /// for TIME. A text type gives the empty text. NaN gives 0 for integers.
     pub fn from_f64(element: ElementaryType, number: f64) -> Value {
-        let rounded = number.round();
+        let rounded = || number.round();
         match element {
             ElementaryType::Bool => Value::Bool(number != 0.0),
-            ElementaryType::Sint => Value::Sint(rounded as i8),
-            ElementaryType::Int => Value::Int(rounded as i16),
-            ElementaryType::Dint => Value::Dint(rounded as i32),
-            ElementaryType::Lint => Value::Lint(rounded as i64),
-            ElementaryType::Usint => Value::Usint(rounded as u8),
-            ElementaryType::Uint => Value::Uint(rounded as u16),
-            ElementaryType::Udint => Value::Udint(rounded as u32),
-            ElementaryType::Ulint => Value::Ulint(rounded as u64),
-            ElementaryType::Byte => Value::Byte(rounded as u8),
-            ElementaryType::Word => Value::Word(rounded as u16),
-            ElementaryType::Dword => Value::Dword(rounded as u32),
-            ElementaryType::Lword => Value::Lword(rounded as u64),
+            ElementaryType::Sint => Value::Sint(rounded() as i8),
+            ElementaryType::Int => Value::Int(rounded() as i16),
+            ElementaryType::Dint => Value::Dint(rounded() as i32),
+            ElementaryType::Lint => Value::Lint(rounded() as i64),
+            ElementaryType::Usint => Value::Usint(rounded() as u8),
+            ElementaryType::Uint => Value::Uint(rounded() as u16),
+            ElementaryType::Udint => Value::Udint(rounded() as u32),
+            ElementaryType::Ulint => Value::Ulint(rounded() as u64),
+            ElementaryType::Byte => Value::Byte(rounded() as u8),
+            ElementaryType::Word => Value::Word(rounded() as u16),
+            ElementaryType::Dword => Value::Dword(rounded() as u32),
+            ElementaryType::Lword => Value::Lword(rounded() as u64),
             // Adding 0.0 turns -0.0 into 0.0: the two are equal, and must be one on the wire and in a hash.
             ElementaryType::Real => Value::Real(number as f32 + 0.0),
             ElementaryType::Lreal => Value::Lreal(number + 0.0),

@@ -84,7 +84,11 @@ fn small_bank(capacity: usize) -> (SimulationSide, IoSide) {
 /// Every register holds `n`.
 fn publish(simulation: &mut SimulationSide, n: i32) {
     let registers = [0, 0, n, n].map(Value::Dint);
-    simulation.publish(Instant::from_nanos(n.into()), &registers);
+    let (now, changed) = (Instant::from_nanos(n.into()), [EDGE, LEVEL]);
+    match n % 2 {
+        0 => simulation.publish_changed(now, &registers, &changed),
+        _ => simulation.publish(now, &registers),
+    };
 }
 
 fn group(n: i32) -> Changes {

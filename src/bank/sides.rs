@@ -1,5 +1,6 @@
 //! The two sides of the bank: values in, values out.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::signal_map::{Kind, RateClass, RegisterId, SignalMap};
@@ -51,7 +52,8 @@ pub(crate) fn with_capacity(map: &SignalMap, capacity: usize, most_words: usize)
         takes: 0,
         messages: 0,
         marks: vec![Mark::default(); layout.registers()],
-        image: vec![0; words],
+        cycle: vec![0; CYCLE_HEADER + words],
+        changed: Vec::new(),
         started: false,
         group: Vec::new(),
         groups: 0,
@@ -120,8 +122,10 @@ pub struct SimulationSide {
     takes: u64,
     messages: u64,
     marks: Vec<Mark>,
-    /// The words of all report registers as last published.
-    image: Vec<u64>,
+    /// The cycle as last published: its header, and the words of all report registers.
+    cycle: Vec<u64>,
+    /// What changed about it, as runs of words.
+    changed: Vec<Range<usize>>,
     started: bool,
     group: Vec<u64>,
     groups: u64,
@@ -141,7 +145,8 @@ impl SimulationSide {
         self.takes += 1;
         let before = self.messages;
         self.queue.refresh();
-        while self.queue.available() > 0 && !self.sets_again() {
+        // The first sets nothing again.
+        while self.queue.available() > 0 && (self.messages == before || !self.sets_again()) {
             self.take_message(inputs);
             self.messages += 1;
         }
@@ -182,7 +187,22 @@ impl SimulationSide {
     /// Gives whether there is something to send at once: an edge signal changed, or this is the first cycle. Wake the
     /// IO thread then.
     pub fn publish(&mut self, now: Instant, registers: &[Value]) -> bool {
-        let edges = self.update_image(registers);
+        let layout = Arc::clone(&self.layout);
+        self.publish_places(now, registers, &mut layout.reports.iter())
+    }
+
+    /// As [`publish`](Self::publish), at the cost of what changed: none but the registers in `changed`, which stand there in
+    /// the order of their ids, has another value than at the call before. The first cycle looks at all.
+    pub fn publish_changed(&mut self, now: Instant, registers: &[Value], changed: &[RegisterId]) -> bool {
+        if !self.started {
+            return self.publish(now, registers);
+        }
+        let layout = Arc::clone(&self.layout);
+        self.publish_places(now, registers, &mut changed.iter().filter_map(|id| layout.report(*id)))
+    }
+
+    fn publish_places(&mut self, now: Instant, registers: &[Value], places: &mut dyn Iterator<Item = &Place>) -> bool {
+        let edges = self.update(registers, places);
         let news = edges > 0 || !self.started;
         self.started = true;
         if edges > 0 {
@@ -193,24 +213,35 @@ impl SimulationSide {
             self.log.push(&self.group, edges);
         }
         // After the log: whoever has this cycle in hand finds all its groups there.
-        let header = [now.nanos() as u64, self.groups, self.entries];
-        self.out.publish(header.into_iter().chain(self.image.iter().copied()));
+        self.cycle[..CYCLE_HEADER].copy_from_slice(&[now.nanos() as u64, self.groups, self.entries]);
+        self.out.publish(&self.cycle, &self.changed);
         news
     }
 
-    /// Brings the image up to date, puts what changed about edge signals into the group, and says how many did.
-    fn update_image(&mut self, registers: &[Value]) -> u64 {
+    /// Brings the cycle up to date as far as `places` go, notes which of its words changed, puts what changed about edge
+    /// signals into the group, and says how many did.
+    fn update(&mut self, registers: &[Value], places: &mut dyn Iterator<Item = &Place>) -> u64 {
         assert_eq!(registers.len(), self.layout.registers(), "one value for every register of the signals map");
         self.group.clear();
         self.group.resize(GROUP_HEADER, 0);
+        self.changed.clear();
+        self.changed.push(0..CYCLE_HEADER);
         let mut edges = 0;
-        for place in &self.layout.reports {
-            let words = &mut self.image[place.start..place.start + place.words];
-            let changed = encode(place.ty, &registers[place.id.index()], words);
-            if changed && self.started && place.kind == Kind::Edge {
+        for place in places {
+            let run = CYCLE_HEADER + place.start..CYCLE_HEADER + place.start + place.words;
+            let words = &mut self.cycle[run.clone()];
+            if !encode(place.ty, &registers[place.id.index()], words) {
+                continue;
+            }
+            if self.started && place.kind == Kind::Edge {
                 self.group.push(u64::from(place.id.0));
                 self.group.extend_from_slice(words);
                 edges += 1;
+            }
+            match self.changed.last_mut() {
+                // What lies side by side is one run.
+                Some(last) if last.end == run.start => last.end = run.end,
+                _ => self.changed.push(run),
             }
         }
         edges

@@ -311,7 +311,15 @@ impl Pair {
         self.step += 1;
         self.n += more;
         let now = registers(self.n);
-        let news = self.simulation.publish(instant(self.step), &now);
+        // The one looks at all registers, the other at those that it is told of; nobody can tell which was called.
+        let news = match &self.image {
+            Some(old) if self.step % 3 > 0 => {
+                let all = (0..now.len() as u32).map(id);
+                let changed: Vec<_> = all.filter(|id| old[id.index()] != now[id.index()]).collect();
+                self.simulation.publish_changed(instant(self.step), &now, &changed)
+            }
+            _ => self.simulation.publish(instant(self.step), &now),
+        };
         let changes: Vec<_> = match &self.image {
             None => Vec::new(),
             Some(old) => (2..5u32)

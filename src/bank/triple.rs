@@ -16,6 +16,8 @@
 //! - The reader's look at the flag before it swaps may be `Relaxed`: it decides only whether to swap, and a flag it
 //!   misses it sees the next time. (Whoever was woken after a publication does see it: waking is an ordering of its own.)
 
+use std::ops::Range;
+
 use crossbeam::utils::CachePadded;
 
 use super::sync::{Arc, AtomicU64, Cell, Ordering};
@@ -34,6 +36,19 @@ struct Shared {
 pub(super) struct Writer {
     shared: Arc<Shared>,
     own: u64,
+    /// For each buffer, what was written since it was filled.
+    lacks: [Lack; 3],
+}
+
+/// What a buffer lacks of the newest cycle.
+#[derive(Default)]
+struct Lack {
+    /// Runs of words, in any order, perhaps one twice.
+    runs: Vec<Range<usize>>,
+    /// How many words they have together.
+    words: usize,
+    /// Whether it lacks so much that it is filled whole.
+    all: bool,
 }
 
 /// The end that reads.
@@ -47,16 +62,46 @@ pub(super) fn triple(words: usize) -> (Writer, Reader) {
     let buffer = || (0..words).map(|_| Cell::new()).collect();
     let shared =
         Arc::new(Shared { buffers: [buffer(), buffer(), buffer()], between: CachePadded::new(AtomicU64::new(1)) });
-    (Writer { shared: shared.clone(), own: 0 }, Reader { shared, own: 2 })
+    (Writer { shared: shared.clone(), own: 0, lacks: Default::default() }, Reader { shared, own: 2 })
 }
 
 impl Writer {
-    /// Writes a whole cycle and hands it over. `words` is as long as the buffers are.
-    pub(super) fn publish(&mut self, words: impl Iterator<Item = u64>) {
-        for (cell, word) in self.shared.buffers[self.own as usize].iter().zip(words) {
-            cell.write(word);
+    /// Hands over a whole cycle. `words` is as long as the buffers are; all of it but the runs in `changed` is as it was at
+    /// the call before. Costs what those runs and the runs of a few calls before have words, however long the cycle is.
+    pub(super) fn publish(&mut self, words: &[u64], changed: &[Range<usize>]) {
+        for lack in &mut self.lacks {
+            lack.add(changed, words.len());
         }
+        let buffer = &self.shared.buffers[self.own as usize];
+        let lack = &mut self.lacks[self.own as usize];
+        if std::mem::take(&mut lack.all) {
+            lack.runs.clear();
+            lack.runs.push(0..words.len());
+        }
+        for run in lack.runs.drain(..) {
+            for (cell, word) in buffer[run.clone()].iter().zip(&words[run]) {
+                cell.write(*word);
+            }
+        }
+        lack.words = 0;
         self.own = self.shared.between.swap(self.own | NEW, Ordering::AcqRel) & INDEX;
+    }
+}
+
+impl Lack {
+    /// More that it lacks, of a cycle of `all` words. Where it comes to lack as much as a cycle has, nothing is remembered
+    /// but that: a buffer that the reader holds for long costs no more than a whole one.
+    fn add(&mut self, changed: &[Range<usize>], all: usize) {
+        if self.all {
+            return;
+        }
+        self.words += changed.iter().map(Range::len).sum::<usize>();
+        if self.words < all {
+            self.runs.extend_from_slice(changed);
+        } else {
+            *self = Lack { runs: std::mem::take(&mut self.runs), words: 0, all: true };
+            self.runs.clear();
+        }
     }
 }
 

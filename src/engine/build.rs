@@ -7,6 +7,7 @@ use super::attention::{Attention, Visits};
 use super::binding::{CommandTable, ReportPort, Target};
 use super::floor::{Bay, BeltBody, CupsBody, Drain, Eye, Floor, PlateBody};
 use super::operate::Operated;
+use super::registers::Registers;
 use super::ties::{self, Ties};
 use super::{Engine, Mount, Unit, UnitBody};
 use crate::device::{self, Belt, Cups, Device, Role, Surface as DeviceSurface};
@@ -113,7 +114,7 @@ impl Engine {
         }
         builder.connect(plant, &mut units)?;
         ties::tie(plant, &builder.mounts, &mut units)?;
-        let registers = map.signals().iter().map(|signal| signal.ty.initial()).collect();
+        let registers = Registers::new(map.signals().iter().map(|signal| signal.ty.initial()).collect());
         let room = units.iter().map(|unit| unit.ports).max().unwrap_or(0);
         let Builder { frames, floor, mounts, .. } = builder;
         let mut engine = Engine {

@@ -100,7 +100,7 @@ impl Engine {
                 for register in &self.owners[owner].1 {
                     let known = incident.signals.iter().any(|(other, _)| other == register);
                     if !known {
-                        incident.signals.push((*register, self.registers[register.index()].clone()));
+                        incident.signals.push((*register, self.registers.get(*register).clone()));
                     }
                 }
             }

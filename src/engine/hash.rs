@@ -47,7 +47,7 @@ impl Engine {
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::START;
         hash.whole(self.now.nanos() as u64);
-        self.registers.iter().for_each(|value| hash.value(value));
+        self.registers.all().iter().for_each(|value| hash.value(value));
         for Unit { device, .. } in &self.units {
             device.state(&mut |number| hash.number(number));
         }

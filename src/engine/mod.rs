@@ -26,6 +26,7 @@ mod load;
 mod operate;
 #[cfg(test)]
 mod operate_tests;
+mod registers;
 #[cfg(test)]
 mod shape_fixture;
 mod stage;
@@ -55,6 +56,7 @@ use binding::{CommandTable, ReportPort};
 use clash::Watch;
 use floor::Floor;
 use operate::Operated;
+use registers::Registers;
 use stage::Stage;
 use ties::Ties;
 
@@ -65,7 +67,7 @@ pub struct Engine {
     steps: u64,
     units: Vec<Unit>,
     commands: CommandTable,
-    registers: Vec<Value>,
+    registers: Registers,
     /// Grippers that a robot's `grip` closes.
     mounts: Vec<Mount>,
     frames: FrameTree,
@@ -169,12 +171,18 @@ impl Engine {
         self.wake_stirred();
         self.sensors();
         self.steps += 1;
-        &self.registers
+        self.registers.all()
     }
 
     /// All registers, by [`RegisterId`], as of the last tick; before the first, those of a plant at rest.
     pub fn registers(&self) -> &[Value] {
-        &self.registers
+        self.registers.all()
+    }
+
+    /// Puts the reports that were set to another value since the last call, or since the beginning, into `out` (cleared
+    /// first), in the order of their ids. All others hold what they held then.
+    pub fn take_changed(&mut self, out: &mut Vec<RegisterId>) {
+        self.registers.take_changed(out);
     }
 
     /// How many parts came, left, and were lost.
@@ -221,7 +229,7 @@ impl Engine {
             let Mount { robot, gripper, suction, register, is_closed } = self.mounts[index];
             let grips = self.grips(robot);
             if grips || is_closed {
-                let own = register.is_some_and(|register| self.registers[register.index()] == Value::Bool(true));
+                let own = register.is_some_and(|register| *self.registers.get(register) == Value::Bool(true));
                 self.units[gripper].device.command(suction, f64::from(own || grips));
                 self.mounts[index].is_closed = grips;
             }
@@ -237,7 +245,7 @@ impl Engine {
             let reports = &mut self.scratch[..unit.ports];
             unit.device.report(reports);
             for port in &unit.reports {
-                self.registers[port.register.index()] = port.value(reports[port.port]);
+                self.registers.report(port.register, port.value(reports[port.port]));
             }
         }
         self.operated.cover(&mut self.registers);

@@ -6,6 +6,7 @@
 use super::Engine;
 use super::binding::Target;
 use super::floor::PartRequest;
+use super::registers::Registers;
 use crate::device::Role;
 use crate::plant::PartKind;
 use crate::signal_map::{Direction, RegisterId, SignalMap};
@@ -130,9 +131,9 @@ impl Operated {
     }
 
     /// Puts what is held in the place of what was reported.
-    pub fn cover(&self, registers: &mut [Value]) {
+    pub fn cover(&self, registers: &mut Registers) {
         for held in &self.held {
-            registers[held.signal.index()].clone_from(&held.value);
+            registers.report(held.signal, held.value.clone());
         }
     }
 }
@@ -192,7 +193,7 @@ impl Engine {
         let was_held = self.operated.held(signal).is_some();
         if self.commands.is_command(signal) {
             if !was_held {
-                let present = self.registers[signal.index()].clone();
+                let present = self.registers.get(signal).clone();
                 self.operated.withheld.push((signal, present));
             }
             self.set_command(signal, value.clone(), number);
@@ -207,7 +208,7 @@ impl Engine {
             return Err(ActError::NoReport);
         }
         // Before the first tick the registers are those of a plant at rest.
-        let value = self.registers[signal.index()].clone();
+        let value = self.registers.get(signal).clone();
         self.operated.held.retain(|held| held.signal != signal);
         self.operated.held.push(Held { signal, value, sticks: true });
         Ok(())
@@ -228,7 +229,7 @@ impl Engine {
 
     /// Sets a command's register and hands it to the devices.
     pub(super) fn set_command(&mut self, register: RegisterId, value: Value, number: f64) {
-        self.registers[register.index()] = value;
+        self.registers.command(register, value);
         for index in 0..self.commands.targets(register).len() {
             let target = self.commands.targets(register)[index];
             if self.operated.dead.is_empty() || !self.operated.is_dead(target) {
@@ -302,14 +303,14 @@ impl Engine {
             return Err(ActError::Whole);
         }
         // What was commanded meanwhile counts now.
-        for index in 0..self.registers.len() {
+        for index in 0..self.registers.all().len() {
             let register = RegisterId(index as u32);
             let concerns = |target: &&Target| {
                 dead.iter().any(|dead| dead.unit == target.unit && dead.ports.contains(&target.port))
             };
             let targets: Vec<Target> = self.commands.targets(register).iter().filter(concerns).copied().collect();
             if let (false, Some((_, number))) =
-                (targets.is_empty(), self.commands.convert(register, &self.registers[index]))
+                (targets.is_empty(), self.commands.convert(register, self.registers.get(register)))
             {
                 targets.iter().for_each(|target| self.units[target.unit].device.command(target.port, number));
             }

@@ -64,6 +64,7 @@ pub struct Simulation {
     bell: Option<Bell>,
     journal: Box<dyn Journal>,
     inputs: Vec<(RegisterId, Value)>,
+    changed: Vec<RegisterId>,
     timing: Timing,
     /// What went wrong and was not asked for yet.
     incidents: Vec<Incident>,
@@ -85,6 +86,7 @@ impl Simulation {
             bell,
             journal,
             inputs: Vec::new(),
+            changed: Vec::new(),
             timing: Timing::new(),
             incidents: Vec::new(),
             collisions: Vec::new(),
@@ -144,7 +146,8 @@ impl Simulation {
         }
         self.engine.tick(&self.inputs);
         self.note();
-        let edge = self.bank.publish(now, self.engine.registers());
+        self.engine.take_changed(&mut self.changed);
+        let edge = self.bank.publish_changed(now, self.engine.registers(), &self.changed);
         // The first step's reports are what a session begins with, edge or not.
         if let Some(bell) = self.bell.as_mut().filter(|_| edge || self.timing.steps == 0) {
             bell.ring();
