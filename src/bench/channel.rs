@@ -97,7 +97,7 @@ fn connect(plant: &Arc<Plant>) -> io::Result<(Web, Server)> {
     let listener = listen()?;
     let address = listener.local_addr()?;
     let simulated = Arc::clone(plant);
-    std::thread::spawn(move || simulate(&simulated, address));
+    std::thread::Builder::new().name("plant".to_owned()).spawn(move || simulate(&simulated, address))?;
     let mut web = Web::accept(listener)?;
     let server = establish(&mut web, &plant.signal_map)?;
     Ok((web, server))

@@ -44,7 +44,7 @@ pub fn web(text: &str) -> io::Result<Texts> {
     let listener = listen()?;
     let address = listener.local_addr()?;
     let responder = runtime()?;
-    std::thread::spawn(move || {
+    std::thread::Builder::new().name("echo".to_owned()).spawn(move || {
         responder.block_on(async {
             let stream = tokio::net::TcpStream::connect(address).await.ok()?;
             stream.set_nodelay(true).ok()?;
@@ -54,6 +54,6 @@ pub fn web(text: &str) -> io::Result<Texts> {
             }
             Some(())
         })
-    });
+    })?;
     Ok(Texts::new(Web::accept(listener)?, vec![Utf8Bytes::from(text)]))
 }

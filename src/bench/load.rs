@@ -12,7 +12,7 @@ use tokio_tungstenite::tungstenite::protocol::Role;
 use tokio_tungstenite::tungstenite::{Message, Utf8Bytes, WebSocket, accept};
 
 use super::row::{Measured, Peer};
-use super::{BenchError, blocks, channel};
+use super::{BenchError, blocks, channel, cores};
 use crate::adapter::Endpoint;
 use crate::pace::{Urgency, prefer, sharpen_sleep};
 use crate::plant::Plant;
@@ -138,8 +138,8 @@ pub struct Held {
     pub cycles: u64,
     /// Cycles not wholly answered before the next one began.
     pub missed: u64,
-    /// Of those, cycles about which a bare thread that sleeps from cycle to cycle woke late as well, by half a cycle or
-    /// more: the operating system missed them.
+    /// Of those, cycles about which a bare thread on one of the cores, which does nothing but sleep a millisecond, or a
+    /// cycle where that is less, woke late as well, by half a cycle or more: the operating system missed them.
     pub missed_by_system: u64,
     /// Switches that no answer came to, or that were answered twice or out of turn.
     pub lost: u64,
@@ -241,10 +241,15 @@ fn session(plant: &Arc<Plant>, demand: Demand, loaded: bool) -> Result<Session, 
         let shared = Arc::clone(&shared);
         std::thread::spawn(move || reader.run(&shared, demand.cycle))
     };
-    let watching = {
+    let mut cores: Vec<Option<usize>> = cores::allowed().into_iter().map(Some).collect();
+    if cores.is_empty() {
+        cores.push(None);
+    }
+    let watching = cores.into_iter().map(|core| {
         let shared = Arc::clone(&shared);
-        std::thread::spawn(move || watch(&shared, demand.cycle))
-    };
+        std::thread::spawn(move || watch(&shared, core, demand.cycle))
+    });
+    let watching: Vec<_> = watching.collect();
     let wrote = if loaded {
         let (writing, shared, cycle) = (writing.try_clone()?, Arc::clone(&shared), demand.cycle);
         let wrote = std::thread::spawn(move || write(writing, &switches, &shared, cycle, duration));
@@ -260,7 +265,7 @@ fn session(plant: &Arc<Plant>, demand: Demand, loaded: bool) -> Result<Session, 
     shared.over.store(true, Ordering::Relaxed);
     handle.stopper().stop();
     let heard = hearing.join().map_err(|_| io::Error::other("the reader died"))?;
-    let _ = watching.join();
+    watching.into_iter().for_each(|watching| _ = watching.join());
     let _ = writing.shutdown(std::net::Shutdown::Both);
     let summary = handle.finish()?;
     let share = |before: Option<f64>, after: Option<f64>| Some((after? - before?) / took);
@@ -349,10 +354,16 @@ fn write(
     Ok(wrote)
 }
 
-/// A bare thread beside it all: when it wakes late, nobody is served in time.
-fn watch(shared: &Shared, cycle: Duration) {
+/// How often a bare thread looks whether its core runs what is due.
+const LOOK: Duration = Duration::from_millis(1);
+
+/// A bare thread beside it all, on one core where it can choose: when it wakes late, nobody there is served in time.
+fn watch(shared: &Shared, core: Option<usize>, cycle: Duration) {
     sharpen_sleep();
     shared.schedule();
+    if let Some(core) = core {
+        cores::stay(&[core]);
+    }
     let begun = shared.begun.elapsed();
     let mut due = begun;
     while !shared.over.load(Ordering::Relaxed) {
@@ -363,7 +374,7 @@ fn watch(shared: &Shared, cycle: Duration) {
         {
             late.push(now.as_nanos() as u64);
         }
-        due = (due + cycle).max(now);
+        due = (due + cycle.min(LOOK)).max(now);
     }
 }
 

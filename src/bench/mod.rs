@@ -5,6 +5,7 @@
 
 pub mod blocks;
 mod channel;
+mod cores;
 pub mod devices;
 mod echo;
 pub mod latency;

@@ -34,7 +34,7 @@ impl SerdeLoop {
         let listener = listen()?;
         let address = listener.local_addr()?;
         let responder = runtime()?;
-        std::thread::spawn(move || {
+        std::thread::Builder::new().name("serde".to_owned()).spawn(move || {
             responder.block_on(async {
                 let stream = tokio::net::TcpStream::connect(address).await.ok()?;
                 stream.set_nodelay(true).ok()?;
@@ -46,7 +46,7 @@ impl SerdeLoop {
                 }
                 Some(())
             })
-        });
+        })?;
         Ok(SerdeLoop { web: Web::accept(listener)?, caller: Caller::new(blocks) })
     }
 }

@@ -101,13 +101,17 @@ pub enum BenchCommand {
 ///
 /// Peers are a raw TCP echo, a bare tokio-tungstenite echo, the same loop with serde_json, Modbus TCP, and where they are
 /// installed mosquitto (MQTT) and Python's asyncua (OPC UA; KINETWIN_PYTHON names another Python). Quantiles are corrected
-/// for coordinated omission. Takes about two minutes; leave the machine alone meanwhile.
+/// for coordinated omission. Both ends of a round trip run on one core, where the system lets one choose; whole runs on all.
+/// Takes about two minutes; leave the machine alone meanwhile.
 #[derive(Debug, Args)]
 #[command(after_long_help = LATENCY_HELP)]
 pub struct LatencyArguments {
     /// How often the rows take turns
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub rounds: u32,
+    /// Measures only the rows whose name contains this, to look at them under a profiler
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    pub only: String,
     /// Prints the table as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -135,9 +139,9 @@ pub struct LoadArguments {
     /// How long; with --limit, how long for each trial
     #[arg(long = "for", value_name = "TIME", value_parser = parse_duration, default_value = "10s")]
     pub duration: Duration,
-    /// The engine's step of simulated time
-    #[arg(long, value_name = "TIME", value_parser = parse_duration, default_value = "1ms")]
-    pub step: Duration,
+    /// The engine's step of simulated time [default: a tenth of the cycle, at most 1ms]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    pub step: Option<Duration>,
     /// Asks the system to run simulation, exchange and the measuring threads before everything else (SCHED_FIFO)
     #[arg(long)]
     pub realtime: bool,

@@ -31,7 +31,7 @@ fn answer(yes: bool) -> Answer {
 
 fn latency(arguments: &LatencyArguments) -> Result<Answer, Failure> {
     let effort = Effort { rounds: arguments.rounds as usize, ..Effort::FULL };
-    let table = latency::measure(effort, |what| words::tell(what))?;
+    let table = latency::measure(effort, &arguments.only, |what| words::tell(what))?;
     if arguments.json {
         words::answer_line(serde_json::to_string(&table)?)?;
     } else {
@@ -48,6 +48,9 @@ fn table_text(table: &Table) -> String {
         let met = if goal.met { "met   " } else { "MISSED" };
         text.push_str(&format!("{met} {:>8} (at most {}): {}\n", goal.found, goal.at_most, goal.what));
     }
+    if !table.on_one_core {
+        text.push_str("the ends of round trips were not kept on one core: the system does not let one choose\n");
+    }
     table.absent.iter().for_each(|peer| text.push_str(&format!("left out, not installed: {peer}\n")));
     text
 }
@@ -59,8 +62,8 @@ fn row_text(row: &Measured) -> String {
 
 fn load(arguments: &LoadArguments) -> Result<Answer, Failure> {
     let LoadArguments { blocks, cycle, duration, step, realtime, limit, json } = arguments;
-    let demand =
-        Demand { blocks: *blocks as usize, cycle: *cycle, duration: *duration, step: *step, realtime: *realtime };
+    let step = step.unwrap_or((*cycle / 10).min(crate::run::Options::STEP));
+    let demand = Demand { blocks: *blocks as usize, cycle: *cycle, duration: *duration, step, realtime: *realtime };
     if *limit {
         let found = load::limit(demand, |held| words::tell(held_line(held)))?;
         if *json {
