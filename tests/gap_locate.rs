@@ -91,6 +91,59 @@ fn read(lines: &str, masks: &[Span]) -> Result<(Study, Recording), String> {
     Ok((study, recording))
 }
 
+/// A pusher's strokes as a machine has them, seen every 20 ms: it goes out by 3 per mille faster than the table says and back by 2 per
+/// mille slower, and its flags are reported once they have stood for `filter` seconds. The motor beside it stands still.
+fn strokes(filter: f64) -> String {
+    let mut lines: Vec<(f64, String)> = Vec::new();
+    let value = |signal: &str, value: &str| format!("{{\"name\":\"{signal}\",\"value\":{value}}}");
+    let seen = |at: f64| ((at + filter - 0.0031) / 0.02).ceil() * 0.02 + 0.0031;
+    let mut flag = |at: f64, name: &str, on: bool| {
+        let entry = value(&format!("Pusher.{name}"), if on { "true" } else { "false" });
+        lines.push((seen(at), format!("\"plant\",\"SendValue\":[{entry}]")));
+    };
+    ["limitExtended", "isRunning"].iter().for_each(|name| flag(-filter, name, false));
+    flag(-filter, "limitRetracted", true);
+    let mut commands = Vec::new();
+    for stroke in 0..34 {
+        let at = 0.5 + 1.3077 * f64::from(stroke) + 0.0137 * f64::from(stroke * stroke % 11);
+        let is_out = stroke % 2 == 0;
+        let speed = if is_out { 0.5 * 1.003 } else { 0.5 * 0.998 };
+        let [left, reached] =
+            if is_out { ["limitRetracted", "limitExtended"] } else { ["limitExtended", "limitRetracted"] };
+        let entry = value("Pusher.command", if is_out { "1" } else { "2" });
+        commands.push((at, format!("\"automation\",\"SendValue\":[{entry}]")));
+        flag(at, "isRunning", true);
+        flag(at + 0.002 / speed, left, false);
+        flag(at + (0.5 - 0.002) / speed, reached, true);
+        flag(at + 0.5 / speed, "isRunning", false);
+    }
+    lines.extend(commands);
+    let speed = value("Motor.speedActual", "0.0");
+    lines.extend((0..2300).map(|k| (0.0031 + 0.02 * f64::from(k), format!("\"plant\",\"SendValue\":[{speed}]"))));
+    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    lines.into_iter().map(|(at, line)| format!("{{\"t\":{at:.6},\"from\":{line}}}\n")).collect()
+}
+
+/// Of a filter much shorter than the cycle few edges tell, and the pusher's speeds take up most of it.
+#[test]
+fn a_filter_of_all_flags_is_no_gap_of_the_one_device_that_shows_it() {
+    let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+    let study = |lines: String| {
+        let text = format!("{{\"trace\":\"kinetwin/1\",\"source\":\"plant\"}}\n{lines}");
+        let reader = Reader::new("x", Cursor::new(text.into_bytes())).expect("a trace");
+        let recording = Recording::read(&plant, "x", reader, &[]).expect("a recording");
+        Study::new(&plant, &[recording]).expect("a study")
+    };
+    let prompt = study(strokes(0.0));
+    assert_eq!((own(&locate(&prompt)), prompt.tasks[0].filter_s), (vec![], 0.0));
+    let filtered = study(strokes(0.003));
+    assert_eq!(own(&locate(&filtered)), [""; 0]);
+    let found = filtered.tasks[0].filter_s;
+    assert!((0.002..0.004).contains(&found), "{found}");
+    // Later than any filter is the device's own.
+    assert_eq!(own(&locate(&study(strokes(0.030)))), ["Pusher"]);
+}
+
 /// One report of `value` of the motor's speed each 20 ms, `count` of them, the motor being told nothing.
 fn speeds(count: usize, value: impl Fn(usize) -> f64) -> String {
     let line = |k: usize| {

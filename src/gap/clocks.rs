@@ -55,7 +55,7 @@ pub(super) fn align(plant: &Plant, recording: &Recording) -> Result<(Recording, 
         .map(|clock| ClockOffset { name: clock.name.clone(), offset_s: 0.0, drift: 0.0, devices: 0 })
         .collect();
     for round in 0..ROUNDS {
-        let study = Study::of_one_clock(plant, std::slice::from_ref(&moved))?;
+        let study = Study::of_one_clock(plant, std::slice::from_ref(&moved), &[])?;
         for (clock, found) in found.iter_mut().enumerate() {
             let evidence = Evidence::of(&study, &moved, clock);
             let Some((offset, drift)) = evidence.nearest(round) else { continue };

@@ -29,6 +29,7 @@ mod cost;
 pub mod diagnosis;
 mod edges;
 mod effects;
+mod filter;
 pub mod fit;
 mod floor;
 mod grid;

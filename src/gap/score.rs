@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
+use super::filter::MOST_FILTER_S;
 use super::parts::shifted;
 use super::prediction::PredictedEdge;
 use super::samples::{Sample, Samples};
-use super::task::MOST_FILTER_S;
 use super::tolerance::Weighed;
 use super::track::Track;
 

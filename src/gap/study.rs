@@ -6,8 +6,10 @@ use rayon::prelude::*;
 
 use super::cause::Bare;
 use super::clocks::{self, ClockOffset};
+use super::filter;
 use super::grid::Grid;
 use super::layout::Layout;
+use super::locate::{THRESHOLD, evidence};
 use super::neighbours;
 use super::overrides::Overrides;
 use super::prediction::Prediction;
@@ -55,17 +57,27 @@ impl Study {
     /// # Errors
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
+        Ok(Study::aligned(plant, recordings, &[])?.within_tolerances(recordings))
+    }
+
+    /// The same with nominal parameters as they are declared. `known` are tasks of the machine, each with the cycle of the
+    /// recording that it was found in.
+    fn aligned(plant: &Plant, recordings: &[Recording], known: &[(f64, Task)]) -> Result<Study, StudyError> {
         if recordings.iter().all(|recording| recording.clocks.is_empty()) {
-            return Ok(Study::of_one_clock(plant, recordings)?.within_tolerances());
+            return Study::of_one_clock(plant, recordings, known);
         }
         let aligned = recordings.iter().map(|recording| clocks::align(plant, recording));
         let aligned = aligned.collect::<Result<Vec<_>, _>>()?;
         let (recordings, offsets): (Vec<Recording>, Vec<_>) = aligned.into_iter().unzip();
-        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings)?.within_tolerances() })
+        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings, known)? })
     }
 
     /// The same, of recordings whose stamps are taken as they are.
-    pub(super) fn of_one_clock(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
+    pub(super) fn of_one_clock(
+        plant: &Plant,
+        recordings: &[Recording],
+        known: &[(f64, Task)],
+    ) -> Result<Study, StudyError> {
         if recordings.is_empty() {
             return Err(StudyError::NoRecording);
         }
@@ -88,7 +100,7 @@ impl Study {
                 }
                 _ => {
                     let tick = find_tick(&mut subjects, run, &grids[run].main)?;
-                    find_task(&mut subjects, run, &grids[run].main)?.unwrap_or(tick)
+                    find_task(&mut subjects, run, &grids[run].main, known)?.unwrap_or(tick)
                 }
             };
             ticks.push(tick);
@@ -117,13 +129,16 @@ impl Study {
         })
     }
 
-    /// The same for recordings that `trained` has not seen. The devices that are taken up again there are replayed in one go
-    /// here, from where their machine was at the start.
+    /// The same for recordings that `trained` has not seen. Of the machine nothing is found anew but when its task ran: what is
+    /// fitted to a recording is not held out from it. The devices that are taken up again there are replayed in one go here,
+    /// from where their machine was at the start.
     ///
     /// # Errors
     /// As of [`Study::new`].
     pub fn beside(plant: &Plant, recordings: &[Recording], trained: &Study) -> Result<Study, StudyError> {
-        let mut study = Study::new(plant, recordings)?;
+        let cycles = trained.grids.iter().map(|grids| grids.main[Beat::Fast as usize].cycle);
+        let known: Vec<(f64, Task)> = cycles.zip(trained.tasks.iter().copied()).collect();
+        let mut study = Study::aligned(plant, recordings, &known)?;
         for (place, subject) in study.subjects.iter_mut().enumerate() {
             if subject.take_up_like(&trained.subjects[place]) {
                 study.nominal[place] = subject.predict(&[], &Overrides::none())?;
@@ -131,6 +146,9 @@ impl Study {
         }
         let each = study.subjects.iter().zip(&study.nominal).zip(&trained.bare);
         study.bare = each.map(|((subject, nominal), bare)| bare.beside(subject, nominal)).collect();
+        for (subject, bare) in study.subjects.iter_mut().zip(&study.bare) {
+            subject.find_floors_again(&bare.prediction);
+        }
         Ok(study)
     }
 
@@ -145,7 +163,7 @@ impl Study {
     }
 
     /// The same with the nominal parameters fitted.
-    fn within_tolerances(mut self) -> Study {
+    fn within_tolerances(mut self, recordings: &[Recording]) -> Study {
         let each = self.subjects.par_iter().zip(&self.nominal).with_max_len(1);
         self.bare = each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
         // What a drum leaves that is a per cent too large was taken for noise so far.
@@ -155,6 +173,17 @@ impl Study {
                 *bare = bare.again(subject, nominal);
             }
         });
+        let is_off = |(subject, bare): (&Subject, &Bare)| evidence(subject, &bare.prediction) > THRESHOLD;
+        // What we recorded ourselves passed none.
+        let is_machine = recordings.iter().all(|recording| recording.step().is_none());
+        let has_none = self.tasks.iter().all(|task| task.filter_s == 0.0);
+        if is_machine
+            && has_none
+            && self.subjects.iter().zip(&self.bare).any(is_off)
+            && let Some(filter_s) = filter::find_beside_parameters(&mut self.subjects, &self.nominal, &mut self.bare)
+        {
+            self.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
+        }
         self
     }
 }
@@ -180,10 +209,31 @@ fn find_tick(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
     Ok(tick)
 }
 
-/// What the machine's task does to all devices of a run alike, which is set in them; its tick, s, where there is such.
-fn find_task(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Result<Option<f64>, EffectError> {
+/// By how much two cycles may differ that are the same, of the cycle.
+const SAME_CYCLE: f64 = 0.01;
+
+/// What the machine's task does to all devices of a run alike, which is set in them; its tick, s, where there is such. Where one of
+/// `known` was found at the same cycle, it is that one, and only its phase is this run's.
+fn find_task(
+    subjects: &mut [Subject],
+    run: usize,
+    grids: &[Arc<Grid>; 3],
+    known: &[(f64, Task)],
+) -> Result<Option<f64>, EffectError> {
     let main = &grids[Beat::Fast as usize];
     subjects.par_iter_mut().try_for_each(|subject| calibrate(subject).map(drop))?;
+    let is_same = |(cycle, _): &&(f64, Task)| (cycle - main.cycle).abs() <= SAME_CYCLE * main.cycle;
+    if let Some((_, task)) = known.iter().find(is_same).filter(|_| main.is_rebuilt) {
+        if *task == Task::default() {
+            return Ok(None);
+        }
+        let task = task::find_phase(subjects, run, *task)?;
+        subjects.iter_mut().for_each(|subject| {
+            subject.set_tick(run, 0.0, 0.0);
+            subject.set_task(run, task);
+        });
+        return Ok(Some(task.every_s));
+    }
     let found = if main.is_rebuilt { task::find(subjects, run, main.cycle)? } else { None };
     if let Some(task) = found {
         subjects.iter_mut().for_each(|subject| {
@@ -194,7 +244,7 @@ fn find_task(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
     let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
     let each = subjects.par_iter().zip(&nominal).with_max_len(1);
     let bare: Vec<Bare> = each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
-    let filter_s = if main.is_rebuilt { task::find_filter(subjects, &bare, run) } else { 0.0 };
+    let filter_s = if main.is_rebuilt { filter::find(subjects, &bare, run) } else { 0.0 };
     if filter_s > 0.0 {
         subjects.iter_mut().for_each(|subject| {
             let task = subject.runs[run].task;

@@ -5,26 +5,22 @@
 //! the same filter. All of that is the recording's, not a device's. It is looked for once, before any device is, and only where
 //! several devices ask for the same: what one device alone is late by is its own gap. (Within one clock no offset of a device is
 //! ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
-//! most [`MOST_FILTER_S`].
+//! most [`MOST_FILTER_S`](super::filter::MOST_FILTER_S).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::cause::{Bare, Nuisance, nuisances};
-use super::edges::interval;
-use super::grid::median;
+use super::cause::{Nuisance, nuisances};
 use super::locate::THRESHOLD;
 use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
-use super::subject::{Subject, beam_of};
+use super::subject::Subject;
 use super::track::Track;
 use crate::effect::EffectError;
 
 /// How old a report may be, s.
 pub const MOST_AGE_S: f64 = 2.5e-3;
-/// How slow the filter of all inputs may be, s.
-pub const MOST_FILTER_S: f64 = 6e-3;
 /// The tasks that are tried, s; 0: commands are taken up at once.
 const TASKS_S: [f64; 7] = [0.0, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3];
 /// What part of a cycle a task may be at most.
@@ -35,21 +31,17 @@ const HALVINGS: u32 = 9;
 /// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
 const CENTRINGS: u32 = 2;
 const FURTHEST: f64 = 3.0;
-/// Steps of the age and of the filter, s, and into how many the best one's neighbourhood is divided.
+/// Steps of the age, s, and into how many the best one's neighbourhood is divided.
 const STEP_S: f64 = 2e-5;
 const FINER: i32 = 10;
-const FILTER_STEP_S: f64 = 1e-4;
 /// A mean square in floors that no device comes below for any other reason than that a floor is too high.
-const LEAST_SQUARE: f64 = 0.2;
+pub(super) const LEAST_SQUARE: f64 = 0.2;
 /// What a task's cycle and its phase have to gain, in deviance.
 const OF_A_TASK: f64 = 12.0;
 /// How many devices have to ask for the same.
-const LEAST_DEVICES: usize = 2;
+pub(super) const LEAST_DEVICES: usize = 2;
 /// How much nearer each of them must come, in deviance.
-const NEARER: f64 = 4.0;
-/// How far an edge may be off, standard deviation, s, and how much a stray counts.
-const EDGE_SIGMA_S: f64 = 1.5e-4;
-const STRAY: f64 = 9.0;
+pub(super) const NEARER: f64 = 4.0;
 
 /// What is common to all devices of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -79,8 +71,7 @@ impl Task {
 /// The likeliest task is found, each device's scale of error being its own: n·ln(squares), n the samples that move, each
 /// as much as its noise lets it tell. So a device with a gap of its own, whose squares are large whatever the task, has a small say.
 pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Task>, EffectError> {
-    let voters = subjects.par_iter().map(|subject| Voter::new(subject.only(run))).collect::<Result<Vec<_>, _>>()?;
-    let mut voters: Vec<Voter> = voters.into_iter().flatten().collect();
+    let mut voters = voters(subjects, run)?;
     if voters.len() < LEAST_DEVICES {
         return Ok(None);
     }
@@ -93,6 +84,41 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
     let nearer = before.iter().zip(&best.costs).filter(|(before, after)| *before - *after > NEARER).count();
     let gain = before.iter().sum::<f64>() - best.cost;
     Ok((nearer >= LEAST_DEVICES && gain > THRESHOLD).then_some(best.task))
+}
+
+/// `known` with its phase as this run has it, which began at another instant: the likeliest as in [`find`].
+pub(super) fn find_phase(subjects: &[Subject], run: usize, known: Task) -> Result<Task, EffectError> {
+    if known.every_s <= 0.0 {
+        return Ok(known);
+    }
+    let mut voters = voters(subjects, run)?;
+    voters.par_iter_mut().try_for_each(|voter| voter.centre(known))?;
+    let cost = |phase_s: f64| -> Result<(f64, f64), EffectError> {
+        let task = Task { phase_s: phase_s.rem_euclid(known.every_s), ..known };
+        let each = voters.par_iter().map(|voter| Ok(voter.moments(Some(task))?.cost(known.age_s)));
+        Ok((each.collect::<Result<Vec<f64>, EffectError>>()?.iter().sum(), task.phase_s))
+    };
+    let mut best = (f64::INFINITY, 0.0);
+    let mut try_all = |phases: &mut dyn Iterator<Item = f64>| -> Result<f64, EffectError> {
+        for phase_s in phases {
+            let found = cost(phase_s)?;
+            best = if found.0 < best.0 { found } else { best };
+        }
+        Ok(best.1)
+    };
+    let whole = known.every_s / f64::from(PHASES);
+    let mut phase_s = try_all(&mut (0..PHASES).map(|phase| f64::from(phase) * whole))?;
+    for halving in 0..HALVINGS {
+        let step = whole / f64::from(1u32 << halving);
+        phase_s = try_all(&mut [-2.0, -1.0, 1.0, 2.0].into_iter().map(|steps| phase_s + steps * step))?;
+    }
+    Ok(Task { phase_s, ..known })
+}
+
+/// The devices of a run that have a say.
+fn voters(subjects: &[Subject], run: usize) -> Result<Vec<Voter>, EffectError> {
+    let voters = subjects.par_iter().map(|subject| Voter::new(subject.only(run))).collect::<Result<Vec<_>, _>>()?;
+    Ok(voters.into_iter().flatten().collect())
 }
 
 /// The best task so far.
@@ -312,50 +338,6 @@ impl Moments {
     fn cost(&self, age: f64) -> f64 {
         self.count * (LEAST_SQUARE + self.mean_square(age)).ln()
     }
-}
-
-/// By how much all flags but beams are late beyond the age, s: the same of several devices; 0 where they do not agree on any.
-pub(super) fn find_filter(subjects: &[Subject], bare: &[Bare], run: usize) -> f64 {
-    let late: Vec<Vec<(f64, f64)>> =
-        subjects.iter().zip(bare).map(|(subject, bare)| late(subject, &bare.prediction, run)).collect();
-    let late: Vec<Vec<(f64, f64)>> = late.into_iter().filter(|edges| edges.len() >= 4).collect();
-    let cost = |edges: &[(f64, f64)], filter: f64| {
-        let outside = |(least, most): &(f64, f64)| (least - filter).max(filter - most).max(0.0) / EDGE_SIGMA_S;
-        let squares = edges.iter().map(|edge| outside(edge).powi(2).min(STRAY)).sum::<f64>();
-        edges.len() as f64 * (LEAST_SQUARE + squares / edges.len() as f64).ln()
-    };
-    let total = |filter: f64| late.iter().map(|edges| cost(edges, filter)).sum::<f64>();
-    let steps = 0..=(MOST_FILTER_S / FILTER_STEP_S) as u32;
-    let filters = steps.map(|step| f64::from(step) * FILTER_STEP_S);
-    let costs: Vec<(f64, f64)> = filters.map(|filter| (total(filter), filter)).collect();
-    let Some(least) = costs.iter().map(|(cost, _)| *cost).min_by(f64::total_cmp) else { return 0.0 };
-    // Between looks a span of filters may do equally well: the middle of it.
-    let alike: Vec<f64> = costs.iter().filter(|(cost, _)| *cost < least + 1.0).map(|(_, filter)| *filter).collect();
-    let best = median(&alike).unwrap_or(0.0);
-    let nearer = late.iter().filter(|edges| cost(edges, 0.0) - cost(edges, best) > NEARER).count();
-    if nearer >= LEAST_DEVICES && total(0.0) - total(best) > THRESHOLD { best } else { 0.0 }
-}
-
-/// Between which delays each flag's edge lies behind its predicted instant, s.
-fn late(subject: &Subject, nominal: &Prediction, run: usize) -> Vec<(f64, f64)> {
-    let mut late = Vec::new();
-    for (place, info) in subject.signals.iter().enumerate() {
-        let (Some(track), Predicted::Edges { edges, .. }) =
-            (&subject.runs[run].tracks[place], &nominal.runs[run][place])
-        else {
-            continue;
-        };
-        if beam_of(info).is_some() || !subject.is_filtered(info) {
-            continue;
-        }
-        for edge in track.edges.iter().filter(|edge| !track.is_blind(edge.index)) {
-            let (before, seen) = interval(track, edge.index);
-            let same = edges.iter().filter(|other| other.to == edge.to);
-            let nearest = same.min_by(|a, b| (a.at - seen).abs().total_cmp(&(b.at - seen).abs()));
-            late.extend(nearest.map(|nearest| (before - nearest.at, seen - nearest.at)));
-        }
-    }
-    late
 }
 
 #[cfg(test)]

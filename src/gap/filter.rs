@@ -1,0 +1,138 @@
+//! The filter that all inputs of a machine pass: flags are seen once they have stood for so long.
+//!
+//! It is the recording's, as the task is (`task.rs`), and looked for in two ways. Where edges of several devices ask for the same,
+//! with each device as its levels have it, that is it. Of a filter much shorter than the cycle few edges tell, and where no level
+//! is reported, nominal parameters take up most of it: a cylinder that runs a per mille slower arrives as late. So where a device
+//! is left unexplained, filters are tried once more with the nominal parameters of all devices fitted beside each.
+
+use rayon::prelude::*;
+
+use super::cause::Bare;
+use super::edges::interval;
+use super::grid::median;
+use super::locate::THRESHOLD;
+use super::prediction::{Predicted, Prediction};
+use super::subject::{Subject, beam_of};
+use super::task::{LEAST_DEVICES, LEAST_SQUARE, NEARER, Task};
+
+/// How slow the filter of all inputs may be, s.
+pub const MOST_FILTER_S: f64 = 6e-3;
+/// The step in which filters are tried, s.
+const FILTER_STEP_S: f64 = 1e-4;
+/// How far an edge may be off, standard deviation, s, and how much a stray counts.
+const EDGE_SIGMA_S: f64 = 1.5e-4;
+const STRAY: f64 = 9.0;
+/// The filters that are tried with nominal parameters beside them, s; then shares of the best.
+const TRIED_S: [f64; 5] = [3e-4, 6e-4, 1e-3, 2e-3, 4e-3];
+const SHARES: [f64; 2] = [0.8, 1.25];
+/// By how much no device may be further off under such a filter, in deviance: it is all devices' or none's.
+const NOT_FURTHER: f64 = 1.0;
+
+/// By how much all flags but beams are late beyond the age, s: the same of several devices; 0 where they do not agree on any.
+pub(super) fn find(subjects: &[Subject], bare: &[Bare], run: usize) -> f64 {
+    let late: Vec<Vec<(f64, f64)>> =
+        subjects.iter().zip(bare).map(|(subject, bare)| late(subject, &bare.prediction, run)).collect();
+    let late: Vec<Vec<(f64, f64)>> = late.into_iter().filter(|edges| edges.len() >= 4).collect();
+    let cost = |edges: &[(f64, f64)], filter: f64| {
+        let outside = |(least, most): &(f64, f64)| (least - filter).max(filter - most).max(0.0) / EDGE_SIGMA_S;
+        let squares = edges.iter().map(|edge| outside(edge).powi(2).min(STRAY)).sum::<f64>();
+        edges.len() as f64 * (LEAST_SQUARE + squares / edges.len() as f64).ln()
+    };
+    let total = |filter: f64| late.iter().map(|edges| cost(edges, filter)).sum::<f64>();
+    let steps = 0..=(MOST_FILTER_S / FILTER_STEP_S) as u32;
+    let filters = steps.map(|step| f64::from(step) * FILTER_STEP_S);
+    let costs: Vec<(f64, f64)> = filters.map(|filter| (total(filter), filter)).collect();
+    let Some(least) = costs.iter().map(|(cost, _)| *cost).min_by(f64::total_cmp) else { return 0.0 };
+    // Between looks a span of filters may do equally well: the middle of it.
+    let alike: Vec<f64> = costs.iter().filter(|(cost, _)| *cost < least + 1.0).map(|(_, filter)| *filter).collect();
+    let best = median(&alike).unwrap_or(0.0);
+    let nearer = late.iter().filter(|edges| cost(edges, 0.0) - cost(edges, best) > NEARER).count();
+    if nearer >= LEAST_DEVICES && total(0.0) - total(best) > THRESHOLD { best } else { 0.0 }
+}
+
+/// Between which delays each flag's edge lies behind its predicted instant, s.
+fn late(subject: &Subject, nominal: &Prediction, run: usize) -> Vec<(f64, f64)> {
+    let mut late = Vec::new();
+    for (place, info) in subject.signals.iter().enumerate() {
+        let (Some(track), Predicted::Edges { edges, .. }) =
+            (&subject.runs[run].tracks[place], &nominal.runs[run][place])
+        else {
+            continue;
+        };
+        if beam_of(info).is_some() || !subject.is_filtered(info) {
+            continue;
+        }
+        for edge in track.edges.iter().filter(|edge| !track.is_blind(edge.index)) {
+            let (before, seen) = interval(track, edge.index);
+            let same = edges.iter().filter(|other| other.to == edge.to);
+            let nearest = same.min_by(|a, b| (a.at - seen).abs().total_cmp(&(b.at - seen).abs()));
+            late.extend(nearest.map(|nearest| (before - nearest.at, seen - nearest.at)));
+        }
+    }
+    late
+}
+
+/// A filter, with what the devices are under it.
+struct Tried {
+    filter_s: f64,
+    cost: f64,
+    bare: Vec<Bare>,
+}
+
+/// Tries filters with nominal parameters fitted beside each, in all runs, and sets the one that explains more than chance does: in
+/// `subjects`, and what they are under it in `bare`. What it is; `None` where there is none.
+pub(super) fn find_beside_parameters(
+    subjects: &mut [Subject],
+    nominal: &[Prediction],
+    bare: &mut [Bare],
+) -> Option<f64> {
+    let has_flags = |subject: &Subject| {
+        let flag = |info: &super::subject::SignalInfo| subject.is_filtered(info) && beam_of(info).is_none();
+        subject.signals.iter().any(flag)
+    };
+    let flagged: Vec<usize> = (0..subjects.len()).filter(|at| has_flags(&subjects[*at])).collect();
+    if flagged.len() < LEAST_DEVICES {
+        return None;
+    }
+    let costs = |subjects: &[Subject], bare: &[Bare]| -> Vec<f64> {
+        let each = subjects.iter().zip(bare);
+        each.map(|(subject, bare)| subject.score(&bare.prediction).total).collect()
+    };
+    let picked: Vec<Subject> = flagged.iter().map(|at| subjects[*at].clone()).collect();
+    let known: Vec<Bare> = flagged.iter().map(|at| bare[*at].clone()).collect();
+    let before = costs(&picked, &known);
+    let under = |filter_s: f64| -> Tried {
+        let each = picked.par_iter().zip(&known).zip(&flagged).with_max_len(1);
+        let each = each.map(|((subject, bare), at)| {
+            let mut subject = subject.clone();
+            set(&mut subject, filter_s);
+            let bare = bare.again(&subject, &nominal[*at]);
+            (subject, bare)
+        });
+        let (subjects, bare): (Vec<Subject>, Vec<Bare>) = each.collect::<Vec<_>>().into_iter().unzip();
+        let after = costs(&subjects, &bare);
+        let is_further = before.iter().zip(&after).any(|(before, after)| after - before > NOT_FURTHER);
+        let cost = if is_further { f64::INFINITY } else { after.iter().sum() };
+        Tried { filter_s, cost, bare }
+    };
+    let nearer = |a: Tried, b: Tried| if b.cost < a.cost { b } else { a };
+    let best = TRIED_S.iter().map(|filter_s| under(*filter_s)).reduce(nearer)?;
+    let around: Vec<f64> = SHARES.iter().map(|share| share * best.filter_s).collect();
+    let best = around.into_iter().map(under).fold(best, nearer);
+    if before.iter().sum::<f64>() - best.cost <= THRESHOLD {
+        return None;
+    }
+    subjects.iter_mut().for_each(|subject| set(subject, best.filter_s));
+    for (at, found) in flagged.into_iter().zip(best.bare) {
+        bare[at] = found;
+    }
+    Some(best.filter_s)
+}
+
+/// Sets the filter of all runs.
+fn set(subject: &mut Subject, filter_s: f64) {
+    for run in 0..subject.runs.len() {
+        let task = subject.runs[run].task;
+        subject.set_task(run, Task { filter_s, ..task });
+    }
+}
