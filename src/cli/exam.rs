@@ -11,7 +11,7 @@ use clap::Args;
 
 use super::output::write_whole;
 use super::{Answer, Failure, words};
-use crate::exam::{self, Exam, Judged};
+use crate::exam::{self, Exam, Floor, Judged};
 use crate::gap::report::Report;
 use crate::run::date_and_time;
 
@@ -41,6 +41,9 @@ pub struct ExamArguments {
     /// The key of the answers [default: DIR.key]
     #[arg(long, value_name = "FILE")]
     pub key: Option<PathBuf>,
+    /// What the rates must reach, as JSON: {"single_right": {"at_least": 0.5}, "false_alarm": {"at_most": 0}}
+    #[arg(long, value_name = "FILE")]
+    pub floor: Option<PathBuf>,
     /// Prints the rates as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -53,8 +56,8 @@ Examples:
   kinetwin gap exam short --jobs 2 --resume
 
 Exit codes:
-  0  every case was judged
-  1  some cases have no verdict; each is named
+  0  every case was judged; with --floor, no rate is below its floor, whether each case was or not
+  1  some cases have no verdict; each is named; with --floor, a rate is below its floor
   2  bad input or use";
 
 /// What stands in the place of a report where there is none.
@@ -69,6 +72,7 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
         name.push("-reports");
         arguments.folder.with_file_name(name)
     });
+    let floor = arguments.floor.as_deref().map(floor).transpose()?;
     let cases = sealed_answers::cases(&arguments.folder).map_err(|error| Failure::of(&error))?;
     if cases.is_empty() {
         let folder = arguments.folder.display();
@@ -92,7 +96,22 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
     let (judged, failed) = score(&out, &cases, &answers);
     let exam = Exam::new(seed, today(), judged, failed);
     tell(arguments, &out, &exam)?;
-    Ok(if exam.failed.is_empty() { Answer::Yes } else { Answer::No })
+    let is_fine = match floor {
+        None => exam.failed.is_empty(),
+        Some(floor) => {
+            let broken = floor.broken(&exam.rates);
+            broken.iter().for_each(|broken| words::tell(broken));
+            broken.is_empty()
+        }
+    };
+    Ok(if is_fine { Answer::Yes } else { Answer::No })
+}
+
+/// Reads what the rates must reach.
+fn floor(path: &Path) -> Result<Floor, Failure> {
+    let failed = |error: &dyn std::fmt::Display| Failure(format!("error: {}: {error}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| failed(&error))?;
+    Floor::from_json(&text).map_err(|error| failed(&error))
 }
 
 /// The file that a case was answered with.

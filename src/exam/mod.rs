@@ -4,6 +4,7 @@
 //! own that knows the case's folder alone; the truth is opened when all reports are written, and judged here.
 
 mod answer;
+mod floor;
 mod judge;
 mod page;
 mod rates;
@@ -12,6 +13,7 @@ mod rates;
 mod tests;
 
 pub use answer::{Answer, AnswersError, Magnitude, Sort, TrueEffect, read_answers};
+pub use floor::Floor;
 pub use judge::{Judged, judge, unanswered};
 pub use page::page;
 pub use rates::{Exam, Rate, Rates, wilson};
