@@ -313,7 +313,7 @@ impl Pair {
         let now = registers(self.n);
         // The one looks at all registers, the other at those that it is told of; nobody can tell which was called.
         let news = match &self.image {
-            Some(old) if self.step % 3 > 0 => {
+            Some(old) if !self.step.is_multiple_of(3) => {
                 let all = (0..now.len() as u32).map(id);
                 let changed: Vec<_> = all.filter(|id| old[id.index()] != now[id.index()]).collect();
                 self.simulation.publish_changed(instant(self.step), &now, &changed)

@@ -100,7 +100,7 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
         None => exam.failed.is_empty(),
         Some(floor) => {
             let broken = floor.broken(&exam.rates);
-            broken.iter().for_each(|broken| words::tell(broken));
+            broken.iter().for_each(words::tell);
             broken.is_empty()
         }
     };

@@ -18,13 +18,25 @@ pub(super) struct ReportPort {
     pub register: RegisterId,
     element: ElementaryType,
     unit: Unit,
+    /// The bits of what was last reported; `None` where the register may hold something else.
+    said: Option<u64>,
 }
 
 impl ReportPort {
     /// The port `port` of a device, bound to `register`.
     pub fn new(port: usize, register: RegisterId, map: &SignalMap) -> ReportPort {
         let signal = map.signal(register);
-        ReportPort { port, register, element: signal.ty.element, unit: signal.unit }
+        ReportPort { port, register, element: signal.ty.element, unit: signal.unit, said: None }
+    }
+
+    /// Whether `number` is not what was reported last. From now on it is.
+    pub fn is_news(&mut self, number: f64) -> bool {
+        self.said.replace(number.to_bits()) != Some(number.to_bits())
+    }
+
+    /// Whatever is reported next is news: the register was set by others.
+    pub fn forget(&mut self) {
+        self.said = None;
     }
 
     /// What the register holds when the device reports `number`, in SI units.

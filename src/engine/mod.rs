@@ -244,8 +244,12 @@ impl Engine {
             }
             let reports = &mut self.scratch[..unit.ports];
             unit.device.report(reports);
-            for port in &unit.reports {
-                self.registers.report(port.register, port.value(reports[port.port]));
+            for port in &mut unit.reports {
+                // Of what a device reports, little is new at a step.
+                let number = reports[port.port];
+                if port.is_news(number) {
+                    self.registers.report(port.register, port.value(number));
+                }
             }
         }
         self.operated.cover(&mut self.registers);

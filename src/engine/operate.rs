@@ -4,7 +4,7 @@
 //! ticks give the same states. That is why they stand in a trace and a replay obeys them.
 
 use super::Engine;
-use super::binding::Target;
+use super::binding::{ReportPort, Target};
 use super::floor::PartRequest;
 use super::registers::Registers;
 use crate::device::Role;
@@ -145,6 +145,8 @@ impl Engine {
     /// It cannot be done; nothing has changed.
     pub fn operate(&mut self, act: &Act) -> Result<(), ActError> {
         self.wake_all();
+        // A register that is held, or was, is not as its device reported it.
+        self.units.iter_mut().flat_map(|unit| &mut unit.reports).for_each(ReportPort::forget);
         match act {
             Act::Force { signal, value } => self.force(*signal, value),
             Act::Release { signal } => self.let_loose(*signal, false),
