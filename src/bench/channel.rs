@@ -77,10 +77,14 @@ impl Peer for Exchanged {
             let mut wanted = commands.len();
             while wanted > 0 {
                 let text = receive(&mut web.socket).await?;
-                // The clock stands still for it, so its limit on messages a second must not count.
                 server.handle(Instant::ZERO, Input::Text(&text));
                 while let Some(output) = server.poll() {
-                    let Output::Event(ServerEvent::Values(staged)) = output else { continue };
+                    let staged = match output {
+                        Output::Event(ServerEvent::Values(staged)) => staged,
+                        // Nobody would answer any more.
+                        Output::Close { reason, .. } => return Err(io::Error::other(reason)),
+                        _ => continue,
+                    };
                     wanted = wanted.saturating_sub(staged.values.len());
                     for (register, value) in staged.values {
                         reports[register.index()] = Some(value);

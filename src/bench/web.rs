@@ -11,7 +11,7 @@ use tokio_tungstenite::tungstenite::{Message, Utf8Bytes};
 use tokio_tungstenite::{WebSocketStream, accept_async};
 
 use super::row::Peer;
-use crate::session::{Input, Output, Server, ServerEvent, ServerSettings};
+use crate::session::{Input, Limits, Output, Server, ServerEvent, ServerSettings};
 use crate::signal_map::SignalMap;
 use crate::time::Instant;
 
@@ -91,7 +91,9 @@ impl Peer for Texts {
 
 /// The server's session with a simulation, over `web`, from its `Connect` to its first reports.
 pub fn establish(web: &mut Web, map: &Arc<SignalMap>) -> io::Result<Server> {
-    let mut server = Server::new(ServerSettings::new("bench"), Arc::clone(map));
+    // The clock stands still for it, so that a limit on messages a second would count them all.
+    let limits = Limits { messages_a_second: u32::MAX, ..Limits::default() };
+    let mut server = Server::new(ServerSettings { limits, ..ServerSettings::new("bench") }, Arc::clone(map));
     let Web { runtime, socket } = web;
     runtime.block_on(async {
         loop {

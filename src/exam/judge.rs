@@ -83,6 +83,22 @@ pub fn unanswered(answer: &Answer, seconds: f64) -> Judged {
 }
 
 impl Judged {
+    /// Whether the answer is one of those that the targets forbid. Of an effect that is faint, or lies below the noise, nobody has to
+    /// know: only a sure answer that is not the truth is wrong.
+    pub fn is_wrong(&self) -> bool {
+        match self.sort {
+            Sort::None => self.verdict != Verdict::NoGap.name(),
+            Sort::Outside => !self.is_unknown(),
+            _ if self.magnitude.counts() => self.single_right == Some(false) || self.both_right == Some(false),
+            _ => self.verdict == Verdict::Effect.name() && self.single_right == Some(false),
+        }
+    }
+
+    /// Whether it says that the library does not explain all of it.
+    pub fn is_unknown(&self) -> bool {
+        [Verdict::Unknown, Verdict::Partial].iter().any(|verdict| self.verdict == verdict.name())
+    }
+
     /// With what an oracle's report shrank.
     pub fn beside(self, oracle: Option<&Report>) -> Judged {
         let shrink = oracle.and_then(|report| report.shrink.ratio).map(|ratio| 1.0 - ratio);

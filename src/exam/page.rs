@@ -80,11 +80,10 @@ fn cases(exam: &Exam, page: &mut String) {
     );
     page.push_str("<th>gone</th><th>s</th></tr>\n");
     for one in &exam.judged {
-        let is_wrong = one.single_right == Some(false) || one.both_right == Some(false);
         let _ = writeln!(
             page,
             "<tr{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{:.1}</td></tr>",
-            if is_wrong { " class=\"wrong\"" } else { "" },
+            if one.is_wrong() { " class=\"wrong\"" } else { "" },
             escape(&one.case),
             one.magnitude.name(),
             escape(&one.truth.join("; ")),

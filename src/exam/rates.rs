@@ -72,7 +72,7 @@ pub struct Exam {
     /// How many cases it has.
     pub cases: usize,
     pub rates: Rates,
-    /// `single_right` by magnitude, and by device.
+    /// `single_right` by magnitude, and at magnitudes that count by device.
     pub by_magnitude: BTreeMap<String, Rate>,
     pub by_device: BTreeMap<String, Rate>,
     /// What was answered, by what was true; each with how often.
@@ -94,7 +94,7 @@ impl Exam {
             device_right: Rate::share(judged.iter().filter(counts).filter_map(|one| one.device_right)),
             single_right: Rate::share(judged.iter().filter(counts).filter_map(|one| one.single_right)),
             false_alarm: Rate::share(of(Sort::None).map(|one| one.verdict != "no-gap")),
-            outside_right: Rate::share(of(Sort::Outside).filter(counts).map(is_unknown)),
+            outside_right: Rate::share(of(Sort::Outside).filter(counts).map(Judged::is_unknown)),
             outside_sure_wrong: Rate::share(of(Sort::Outside).filter(counts).map(|one| one.verdict == "effect")),
             both_of_two: Rate::share(judged.iter().filter(counts).filter_map(|one| one.both_right)),
             shrink_of_oracle: mean(judged.iter().filter(counts).filter_map(of_oracle)),
@@ -105,9 +105,7 @@ impl Exam {
             ece: calibration(judged.iter().filter(counts).filter_map(|one| Some((one.weight?, one.single_right?)))),
             truth_named: Rate::share(judged.iter().filter(counts).filter_map(|one| one.truth_named)),
             faint_sure_wrong: Rate::share(
-                of(Sort::Single)
-                    .filter(|one| one.magnitude == Magnitude::Faint)
-                    .map(|one| one.verdict == "effect" && one.single_right == Some(false)),
+                of(Sort::Single).filter(|one| one.magnitude == Magnitude::Faint).map(Judged::is_wrong),
             ),
         };
         let mut sizes: Vec<usize> =
@@ -121,7 +119,10 @@ impl Exam {
             cases: judged.len() + failed.keys().filter(|case| judged.iter().all(|one| one.case != **case)).count(),
             rates,
             by_magnitude: grouped(&judged, |one| Some(one.magnitude.name().to_owned())),
-            by_device: grouped(&judged, |one| one.truth.first()?.split(['.', ':']).next().map(str::to_owned)),
+            by_device: grouped(&judged, |one| {
+                let device = one.truth.first().filter(|_| one.magnitude.counts())?.split(['.', ':']).next();
+                device.map(str::to_owned)
+            }),
             confusion: confusion(&judged),
             median_class: sizes.get(sizes.len() / 2).copied(),
             seconds_per_case: (!judged.is_empty()).then_some(seconds),
@@ -129,10 +130,6 @@ impl Exam {
             failed,
         }
     }
-}
-
-fn is_unknown(judged: &Judged) -> bool {
-    judged.verdict == "unknown" || judged.verdict == "partial"
 }
 
 fn of_oracle(judged: &Judged) -> Option<f64> {

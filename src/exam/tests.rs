@@ -82,6 +82,31 @@ fn a_class_that_holds_the_truth_is_right_and_both_of_two_must_be_found() {
 }
 
 #[test]
+fn what_nobody_has_to_know_is_wrong_only_where_it_is_answered_surely() {
+    let check = |sort, magnitude, verdict, causes: &[(&str, &str, EffectPlace)], is_wrong: bool| {
+        let effects = match sort {
+            Sort::None => Vec::new(),
+            _ => vec![truth("Axis", "coulomb-friction", "mechanics")],
+        };
+        let judged = judge(&answer("1", sort, magnitude, effects), &report(verdict, causes), 1.0);
+        assert_eq!(judged.is_wrong(), is_wrong, "{judged:?}");
+    };
+    let viscous = [("Axis", "viscous-friction", EffectPlace::Mechanics)];
+    let coulomb = [("Axis", "coulomb-friction", EffectPlace::Mechanics)];
+    check(Sort::Single, Magnitude::Clear, Verdict::NoGap, &[], true);
+    check(Sort::Single, Magnitude::Clear, Verdict::Effect, &coulomb, false);
+    for magnitude in [Magnitude::Faint, Magnitude::BelowNoise] {
+        check(Sort::Single, magnitude, Verdict::NoGap, &[], false);
+        check(Sort::Single, magnitude, Verdict::Ambiguous, &viscous, false);
+        check(Sort::Single, magnitude, Verdict::Effect, &viscous, true);
+    }
+    check(Sort::None, Magnitude::None, Verdict::NoGap, &[], false);
+    check(Sort::None, Magnitude::None, Verdict::Ambiguous, &viscous, true);
+    check(Sort::Outside, Magnitude::Gross, Verdict::Partial, &coulomb, false);
+    check(Sort::Outside, Magnitude::Gross, Verdict::Ambiguous, &coulomb, true);
+}
+
+#[test]
 fn wilsons_interval_is_the_one_of_the_books() {
     // 8 of 10: 0.4902 to 0.9433 (E. B. Wilson's formula, by hand).
     let [low, high] = wilson(8, 10);
