@@ -99,7 +99,7 @@ impl Lack {
         if self.words < all {
             self.runs.extend_from_slice(changed);
         } else {
-            *self = Lack { runs: std::mem::take(&mut self.runs), words: 0, all: true };
+            self.all = true;
             self.runs.clear();
         }
     }

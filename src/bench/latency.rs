@@ -126,7 +126,10 @@ pub fn measure(effort: Effort, only: &str, mut progress: impl FnMut(&str)) -> Re
     if lateness::SHARED.looped.contains(only) {
         measured.extend(lateness::measure(2 * effort.rounds, progress)?);
     }
-    Ok(Table { on_one_core, ..Table::new(measured, absent) })
+    if measured.is_empty() {
+        return Err(BenchError::NoRow { only: only.to_owned() });
+    }
+    Ok(Table::new(measured, on_one_core, absent))
 }
 
 fn failed(row: &Row, source: std::io::Error) -> BenchError {
@@ -242,7 +245,7 @@ fn message(plant: &Plant) -> String {
 }
 
 impl Table {
-    fn new(rows: Vec<Measured>, absent: Vec<&'static str>) -> Table {
+    fn new(rows: Vec<Measured>, on_one_core: bool, absent: Vec<&'static str>) -> Table {
         let get = |name: &str, quantity| {
             rows.iter().find(|row| row.name == name).map_or(f64::NAN, |row: &Measured| row.get(quantity))
         };
@@ -273,7 +276,7 @@ impl Table {
         }
         // What was not measured is neither met nor missed.
         goals.retain(|goal| !goal.found.is_nan());
-        Table { rows, ratios, goals, on_one_core: false, absent }
+        Table { rows, ratios, goals, on_one_core, absent }
     }
 
     /// Whether every goal is met.

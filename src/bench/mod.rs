@@ -28,6 +28,8 @@ use std::io;
 pub enum BenchError {
     #[error("failed to measure {row}: {source}")]
     Row { row: String, source: io::Error },
+    #[error("no row's name contains {only:?}: run kinetwin bench latency without --only to see them all")]
+    NoRow { only: String },
     #[error(transparent)]
     Run(#[from] crate::run::RunError),
     #[error("failed to start a thread or to listen: {0}")]

@@ -129,8 +129,8 @@ impl Study {
         })
     }
 
-    /// The same for recordings that `trained` has not seen. Of the machine nothing is found anew but when its task ran: what is
-    /// fitted to a recording is not held out from it. The devices that are taken up again there are replayed in one go here,
+    /// The same for recordings that `trained` has not seen. What its task does is as in the training where that has the same
+    /// cycle, and only its phase is found anew: what is fitted to a recording is not held out from it. The devices that are taken up again there are replayed in one go here,
     /// from where their machine was at the start.
     ///
     /// # Errors
