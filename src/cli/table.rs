@@ -13,7 +13,7 @@ use super::replay::open;
 use super::{Answer, Failure, words};
 use crate::engine::Engine;
 use crate::replay::foxglove::Pictures;
-use crate::replay::{self, Survey, Tolerances};
+use crate::replay::{self, Reported, Survey, Tolerances};
 use crate::run::{Options, model};
 use crate::scene::Scene;
 use crate::signal_map::{Direction, SignalMap};
@@ -144,7 +144,7 @@ pub struct ExportArguments {
     /// Puts what the plant looks like beside the signals, as Foxglove draws it: frames, devices, parts
     ///
     /// The trace is replayed through the model; 30 pictures a second on /tf (foxglove.FrameTransforms), /scene and /parts
-    /// (foxglove.SceneUpdate), with their schemas.
+    /// (foxglove.SceneUpdate), with their schemas. Of a machine's trace the joints stand where they were measured.
     #[arg(long, requires_all = ["mcap", "model"])]
     pub scene: bool,
     /// Replaces the file to write if there is one; without it, that is refused
@@ -348,12 +348,18 @@ fn export_mcap(arguments: &ExportArguments, file: Output) -> Result<(Output, Exp
     let header = survey.header();
     let step = header.step_ns.map_or(Options::STEP, Duration::from_nanos);
     let mut engine = model::engine(plant, step, header.seed.unwrap_or_default())?;
-    engine.show(plant, Arc::new(Scene::of(plant)));
+    let scene = Arc::new(Scene::of(plant));
+    let machine = match header.source {
+        Source::Plant => Some(Reported::read(&plant.signal_map, &scene, open(&arguments.trace)?)),
+        _ => None,
+    };
+    let machine = machine.transpose().map_err(|error| Failure::of(&error))?;
+    engine.show(plant, scene);
     let mut pictures = 0;
     let mut refused = None;
     let replayed = open(&arguments.trace)?;
     let written = export::mcap_with(open(&arguments.trace)?, map, file, |writer| {
-        let mut shown = Pictures::new(writer)?;
+        let mut shown = Pictures::new(writer, machine)?;
         let mut failed = None;
         let watch = |engine: &mut Engine| failed = failed.take().or_else(|| shown.take(engine).err());
         let tolerances = Tolerances::default();

@@ -18,7 +18,7 @@ use crate::run::{self, Handle, Options, Stop, Summary, model};
 use crate::scene::Scene;
 use crate::trace::{Reader, TraceError};
 use crate::view::live::Live;
-use crate::view::{self, Baked, Listening, Playback, ReportFiles, Stage, Told};
+use crate::view::{self, Baked, Listening, Playback, ReportFiles, Seen, Stage, Told};
 
 /// Plays a recorded trace in the browser.
 ///
@@ -26,7 +26,9 @@ use crate::view::{self, Baked, Listening, Playback, ReportFiles, Stage, Told};
 /// --ghost a second trace is laid over it: measured against simulated. With --report the devices are coloured by their
 /// shares of the gap that a diagnosis found, and a click opens the plots.
 ///
-/// Of a trace whose source is a machine (`source: plant`), signals are shown as they were measured.
+/// Of a trace whose source is a machine (`source: plant`), signals, the joints that they tell of and light barriers are shown
+/// as they were measured. With --simulated that is so of any trace, and what the model does under the same commands is laid
+/// over it.
 #[derive(Debug, Args)]
 #[command(after_long_help = VIEW_HELP)]
 pub struct ViewArguments {
@@ -38,6 +40,9 @@ pub struct ViewArguments {
     /// A second trace of the same plant, laid over the first
     #[arg(long, value_name = "TRACE")]
     pub ghost: Option<PathBuf>,
+    /// Lay what the model does under the trace's commands over what a machine measured
+    #[arg(long, conflicts_with = "ghost")]
+    pub simulated: bool,
     /// A report.json of `kinetwin gap diagnose`; its report.html is opened from beside it
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
@@ -49,7 +54,8 @@ pub struct ViewArguments {
 const VIEW_HELP: &str = "\
 Examples:
   kinetwin view session.cps.jsonl.zst --model models/depalletizer
-  kinetwin view machine.cps.jsonl --model models/rig --ghost simulated.cps.jsonl
+  kinetwin view machine.cps.jsonl --model models/rig --simulated
+  kinetwin view one.cps.jsonl --model models/rig --ghost other.cps.jsonl
   kinetwin view machine.cps.jsonl --model models/rig --report diagnosis/report.json
 
 The address of the page is printed on standard output. Ctrl-C ends it.
@@ -89,9 +95,12 @@ pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
         None => None,
     };
     let scene = Arc::new(Scene::of(&plant));
-    let trace = bake(&arguments.trace, &plant, &scene)?;
+    let trace = bake(&arguments.trace, arguments.simulated.then_some(Seen::Recorded), &plant, &scene)?;
     let ghost = match &arguments.ghost {
-        Some(path) => Some(bake(path, &plant, &scene)?),
+        Some(path) => Some(bake(path, None, &plant, &scene)?),
+        None if arguments.simulated => {
+            Some(bake(&arguments.trace, Some(Seen::Model), &plant, &scene)?.called("the model"))
+        }
         None => None,
     };
     let url = listening.url();
@@ -106,10 +115,11 @@ pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
-/// Replays a trace once, so that any instant of it can be shown.
-pub(super) fn bake(path: &Path, plant: &Plant, scene: &Arc<Scene>) -> Result<Baked, Failure> {
+/// Replays a trace once, so that any instant of it can be shown; who is seen, its source decides where `seen` does not.
+fn bake(path: &Path, seen: Option<Seen>, plant: &Plant, scene: &Arc<Scene>) -> Result<Baked, Failure> {
     let survey = Survey::of(&plant.signal_map, open(path)?).map_err(|error| Failure::of(&error))?;
     let header = survey.header();
+    let seen = seen.unwrap_or(Seen::by_default(header.source));
     if header.model_hash.as_deref().is_some_and(|hash| hash != model::hash(plant)) {
         let recorded = header.model.as_deref().unwrap_or("another model");
         words::tell(format_args!(
@@ -126,7 +136,7 @@ pub(super) fn bake(path: &Path, plant: &Plant, scene: &Arc<Scene>) -> Result<Bak
         let file = std::fs::File::open(path).map_err(read)?;
         Reader::new(name.clone(), std::io::BufReader::with_capacity(1 << 16, file))
     };
-    Baked::of(&name, &mut engine, plant, reopen).map_err(|error| Failure::of(&error))
+    Baked::of(&name, seen, &mut engine, (plant, scene), reopen).map_err(|error| Failure::of(&error))
 }
 
 /// How often it is looked whether somebody wants an end.

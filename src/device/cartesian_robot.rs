@@ -167,6 +167,11 @@ impl Device for CartesianRobot {
         visit("R.R", self.tool.rotation);
     }
 
+    fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        let mut positions = reports[POSITIONS..].iter();
+        self.joints(&mut |name, own| visit(name, positions.next().copied().flatten().unwrap_or(own)));
+    }
+
     fn role(&self) -> Role<'_> {
         Role::Moves(&self.tool)
     }

@@ -179,6 +179,24 @@ impl Cylinder {
         self.rod().position <= self.settings.limit_tolerance + SAME_VALUE
     }
 
+    /// Where the rod is, m, held to where another's switches allow it to be; `None` where a switch has said nothing. Switches that
+    /// contradict one another bind nothing.
+    pub fn between(&self, extended: Option<bool>, retracted: Option<bool>) -> f64 {
+        let (own, tolerance, end) = (self.rod().position, self.settings.limit_tolerance, self.settings.length);
+        let [mut low, mut high] = [own.min(0.0), own.max(end)];
+        match retracted {
+            Some(true) => high = tolerance,
+            Some(false) => low = tolerance,
+            None => {}
+        }
+        match extended {
+            Some(true) => low = end - tolerance,
+            Some(false) => high = high.min(end - tolerance),
+            None => {}
+        }
+        if low <= high { own.clamp(low, high) } else { own }
+    }
+
     /// Its numbers, for a state's hash.
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {
         visit(self.stroke.position());

@@ -128,6 +128,11 @@ impl Device for EncoderMotor {
     fn joints(&self, visit: &mut dyn FnMut(&'static str, f64)) {
         visit("Shaft.R", self.drive.load().position);
     }
+
+    fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        let shaft = |own| reports[ENCODER].map_or(own, |count| self.encoder.angle_near(count, own));
+        self.joints(&mut |name, own| visit(name, shaft(own)));
+    }
 }
 
 #[cfg(test)]

@@ -178,6 +178,11 @@ impl Device for InverterConveyor {
         visit("Shaft.R", self.drive.load().position);
     }
 
+    fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        let shaft = |own| reports[ENCODER].map_or(own, |count| self.encoder.angle_near(count, own));
+        self.joints(&mut |name, own| visit(name, shaft(own)));
+    }
+
     fn role(&self) -> Role<'_> {
         Role::Carries(&self.belt)
     }

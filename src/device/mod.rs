@@ -181,6 +181,12 @@ pub trait Device: Send {
     /// (`Spintore.T`), and its value, m or rad.
     fn joints(&self, _visit: &mut dyn FnMut(&'static str, f64)) {}
 
+    /// Gives the joints to `visit` as [`joints`](Device::joints) does, where a machine's `reports` put them: one place for every
+    /// port of the kind, in SI units, `None` where nothing was reported. What reports leave open is the model's.
+    fn reported_joints(&self, _reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        self.joints(visit);
+    }
+
     /// What it is to the parts.
     fn role(&self) -> Role<'_> {
         Role::Apart

@@ -158,6 +158,12 @@ impl Device for Pusher {
         visit("Spintore.T", self.plate.position);
     }
 
+    /// The switches tell only where the plate may be.
+    fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        let [extended, retracted] = [LIMIT_EXTENDED, LIMIT_RETRACTED].map(|port| reports[port].map(|is| is != 0.0));
+        visit("Spintore.T", self.cylinder.between(extended, retracted));
+    }
+
     fn role(&self) -> Role<'_> {
         Role::Pushes(&self.plate)
     }

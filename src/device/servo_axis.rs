@@ -512,6 +512,10 @@ impl Device for ServoAxis {
         visit("Slide.T", position);
         visit("Shaft.R", position);
     }
+
+    fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        self.joints(&mut |name, own| visit(name, reports[POSITION].unwrap_or(own)));
+    }
 }
 
 #[cfg(test)]

@@ -262,6 +262,11 @@ impl Device for SixAxisRobot {
         }
     }
 
+    fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+        let mut angles = reports[ANGLES..].iter();
+        self.joints(&mut |name, own| visit(name, angles.next().copied().flatten().unwrap_or(own)));
+    }
+
     fn role(&self) -> Role<'_> {
         Role::Moves(&self.tool)
     }

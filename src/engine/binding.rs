@@ -39,6 +39,12 @@ impl ReportPort {
         self.said = None;
     }
 
+    /// What the device reports where the register holds `value`, in SI units; `None` for what is no finite number.
+    pub fn number(&self, value: &Value) -> Option<f64> {
+        let number = value.to_f64().filter(|number| number.is_finite())?;
+        Some(if self.unit.to_si == 1.0 { number } else { to_si(number, self.unit) })
+    }
+
     /// What the register holds when the device reports `number`, in SI units.
     pub fn value(&self, number: f64) -> Value {
         // Where no unit is changed, no digit is.

@@ -27,6 +27,7 @@ mod operate;
 #[cfg(test)]
 mod operate_tests;
 mod registers;
+mod reported;
 #[cfg(test)]
 mod shape_fixture;
 mod stage;

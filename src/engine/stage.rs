@@ -45,17 +45,27 @@ impl Stage {
     /// Follows these of the devices to where they are now.
     pub fn follow(&mut self, units: &[Unit], moved: &[u32]) {
         for &unit in moved {
-            let frames = &self.joints[unit as usize];
-            if frames.is_empty() {
-                continue;
-            }
-            let mut frames = frames.iter();
-            units[unit as usize].device.joints(&mut |_, value| {
-                if let Some(Some(frame)) = frames.next() {
-                    self.poses.set(*frame, value);
-                }
-            });
+            self.pose(unit as usize, |visit| units[unit as usize].device.joints(visit));
         }
+        self.resolve();
+    }
+
+    /// Sets the joints of one device to what `give` hands out, in the order of [`Device::joints`](crate::device::Device::joints).
+    pub fn pose(&mut self, unit: usize, give: impl FnOnce(&mut dyn FnMut(&'static str, f64))) {
+        let frames = &self.joints[unit];
+        if frames.is_empty() {
+            return;
+        }
+        let mut frames = frames.iter();
+        give(&mut |_, value| {
+            if let Some(Some(frame)) = frames.next() {
+                self.poses.set(*frame, value);
+            }
+        });
+    }
+
+    /// Computes the poses of what was set.
+    pub fn resolve(&mut self) {
         self.poses.resolve();
     }
 }

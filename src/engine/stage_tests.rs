@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Engine, IncidentKind};
+use super::{Act, Engine, IncidentKind, Insertion, PartState};
 use crate::device::KINDS;
 use crate::kinematics::DVec3;
 use crate::plant::embedded::Embedded;
-use crate::plant::{Plant, load};
+use crate::plant::{PartKind, Plant, load};
 use crate::scene::{Poses, Scene};
 use crate::signal_map::RegisterId;
 use crate::value::Value;
@@ -136,6 +136,58 @@ fn beams_are_where_parts_cut_them() {
     let [a, b] = beam.ends.map(|end| pose.world(beam.node).transform_point(end));
     let middle = (a + b) / 2.0 - DVec3::new(5.2, 2.0, 0.0);
     assert!((middle.truncate().length() - 0.8).abs() < 1e-9, "{middle}");
+}
+
+#[test]
+fn a_machines_reports_put_its_joints_and_what_hangs_from_them() {
+    let mut shown = Shown::new("models/depalletizer");
+    let part = Insertion {
+        kind: PartKind::Box,
+        size: [0.3; 3],
+        belt: "Conveyor4".to_owned(),
+        station: 1.38,
+        offset: 0.0,
+        turn: 0.0,
+    };
+    shown.engine.operate(&Act::Insert(part)).expect("room");
+    shown.run(&[("Robot.YTarget", 1.2), ("Robot.ZTarget", -0.65)], 300);
+    shown.run(&[("Gripper1.suctionOn", 1.0)], 50);
+    shown.run(&[("Robot.ZTarget", 0.0), ("Pusher1.command", 1.0)], 300);
+    let model: Vec<PartState> = shown.engine.parts().collect();
+    let held = model.iter().position(|part| part.place[2] > 1.3).expect("a part that hangs");
+    let map = Arc::clone(&shown.plant.signal_map);
+    let said = |pairs: &[(&str, Value)]| -> Vec<Option<Value>> {
+        let of = |name: &str| pairs.iter().find(|(said, _)| *said == name).map(|(_, value)| value.clone());
+        map.signals().iter().map(|signal| of(&signal.name)).collect()
+    };
+    let nothing = said(&[]);
+    assert_eq!(shown.engine.show_reported(|register| nothing[register.index()].as_ref()), model);
+    let before = shown.place("Gripper1.Rim");
+    let plate = shown.place("Pusher1.Spintore");
+
+    // X 100 mm further and turned by a quarter, Y beyond all sense; and the pusher has never left its start.
+    let machine = said(&[
+        ("Robot.actualPosX", Value::Real(0.1)),
+        ("Robot.actualPosR", Value::Real(std::f32::consts::FRAC_PI_2)),
+        ("Robot.actualPosY", Value::Real(f32::INFINITY)),
+        ("Pusher1.limitRetracted", Value::Bool(true)),
+        ("Pusher1.limitExtended", Value::Bool(false)),
+    ]);
+    let parts = shown.engine.show_reported(|register| machine[register.index()].as_ref());
+    let moved = shown.place("Gripper1.Rim") - before;
+    assert!((moved - DVec3::new(0.1 - 0.18, 0.18, 0.0)).length() < 1e-6, "{moved}");
+    let carried = DVec3::from_array(parts[held].place) - DVec3::from_array(model[held].place);
+    assert!((carried - moved).length() < 1e-6, "it hangs beneath the rim: {carried}");
+    assert!((parts[held].yaw - model[held].yaw - FRAC_PI_2).abs() < 1e-6);
+    let retracted = plate - shown.place("Pusher1.Spintore");
+    assert!((retracted.length() - 0.748).abs() < 1e-9, "within its switch's 2 mm: {retracted}");
+    for (index, part) in parts.iter().enumerate().filter(|(index, _)| *index != held) {
+        assert_eq!(*part, model[index], "no report tells of it");
+    }
+    // The model goes on as if nothing had been shown.
+    assert_eq!(shown.engine.parts().collect::<Vec<_>>(), model);
+    shown.engine.show_reported(|_| None);
+    assert!((shown.place("Gripper1.Rim") - before).length() < 1e-12);
 }
 
 #[test]

@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 use crate::engine::{Engine, PartState};
 use crate::kinematics::{DPose3, DVec3, Upright};
 use crate::mesh::Mesh;
+use crate::replay::Reported;
 use crate::scene::{Body, Colour, NodeId, Scene, part_colour};
 use crate::time::Instant;
 
@@ -35,13 +36,15 @@ pub struct Pictures<'a, W: Write> {
     next: i64,
     seen: Option<u64>,
     last: Vec<PartState>,
+    /// Who stands where it reported; nobody of a simulation.
+    machine: Option<Reported>,
     /// Messages written.
     pub written: u64,
 }
 
 impl<'a, W: Write> Pictures<'a, W> {
-    /// Adds the channels to `writer`.
-    pub fn new(writer: &'a mut Writer<NoSeek<W>>) -> Result<Pictures<'a, W>, McapError> {
+    /// Adds the channels to `writer`. Where it is a `machine`'s recording, the machine is seen as far as it reported itself.
+    pub fn new(writer: &'a mut Writer<NoSeek<W>>, machine: Option<Reported>) -> Result<Pictures<'a, W>, McapError> {
         let of_frames = writer.add_schema("foxglove.FrameTransforms", "jsonschema", FRAME_TRANSFORMS.as_bytes())?;
         let of_scene = writer.add_schema("foxglove.SceneUpdate", "jsonschema", SCENE_UPDATE.as_bytes())?;
         let none = BTreeMap::new();
@@ -57,14 +60,22 @@ impl<'a, W: Write> Pictures<'a, W> {
             next: 0,
             seen: None,
             last: Vec::new(),
+            machine,
             written: 0,
         })
     }
 
     /// Writes what changed since the last picture, where another is due.
-    pub fn take(&mut self, engine: &Engine) -> Result<(), McapError> {
+    pub fn take(&mut self, engine: &mut Engine) -> Result<(), McapError> {
         let now = engine.now();
-        let Some(poses) = engine.poses().filter(|_| now.nanos() >= self.next) else { return Ok(()) };
+        if now.nanos() < self.next {
+            return Ok(());
+        }
+        let parts = match &self.machine {
+            Some(machine) => engine.show_reported(|register| machine.at(register, now)),
+            None => engine.parts().collect(),
+        };
+        let Some(poses) = engine.poses() else { return Ok(()) };
         self.next = (now.nanos() * RATE / 1_000_000_000 + 1) * 1_000_000_000 / RATE;
         let scene = poses.scene();
         let moved: Vec<(NodeId, &DPose3)> = match self.seen {
@@ -80,7 +91,6 @@ impl<'a, W: Write> Pictures<'a, W> {
             self.write(self.scene, now, &json!({"deletions": [], "entities": devices(now, scene)}))?;
         }
         self.seen = Some(poses.version());
-        let parts: Vec<PartState> = engine.parts().collect();
         if parts != self.last {
             self.write(self.parts, now, &parts_update(now, &self.last, &parts))?;
             self.last = parts;

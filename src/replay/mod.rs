@@ -21,6 +21,7 @@ mod edges;
 pub mod foxglove;
 mod levels;
 mod report;
+mod reported;
 mod survey;
 
 #[cfg(test)]
@@ -31,6 +32,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 pub use report::{EdgeReport, LevelReport, Report};
+pub use reported::Reported;
 pub use survey::Survey;
 
 use crate::bank::{self, Full};

@@ -4,10 +4,12 @@
 //! changed from picture to picture with a whole one now and then ([`Movie`]). So any instant is there at once, and backwards
 //! costs what forwards does.
 //!
-//! Of a trace whose source is a plant the signals are shown as the machine reported them; the bodies follow the model under the
-//! recorded commands.
+//! Of a trace whose source is a plant the machine is shown as it reported itself ([`Reported`]): its signals, the joints and the
+//! light barriers that they tell of, and what hangs from its grippers. The rest follows the model under the recorded commands.
 
 mod movie;
+#[cfg(test)]
+mod tests;
 
 use std::io::BufRead;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,11 +21,11 @@ use tokio::sync::watch;
 use super::frame::{Frame, Ghost};
 use crate::engine::Engine;
 use crate::plant::Plant;
-use crate::replay::{self, ReplayError, Survey, Tolerances};
+use crate::replay::{self, ReplayError, Reported, Survey, Tolerances};
 use crate::scene::Scene;
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
-use crate::trace::{Reader, TraceError};
+use crate::trace::{Reader, Source, TraceError};
 
 pub use movie::Movie;
 
@@ -38,19 +40,39 @@ pub enum BakeError {
     Empty { file: String },
 }
 
+/// Who is seen in a trace that is played.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seen {
+    /// Whoever recorded it, as far as its reports go.
+    Recorded,
+    /// The model under the recorded commands.
+    Model,
+}
+
+impl Seen {
+    /// A machine as it reported itself. What a simulation recorded, the model does again, and more of it than it reported.
+    pub fn by_default(source: Source) -> Seen {
+        match source {
+            Source::Plant => Seen::Recorded,
+            _ => Seen::Model,
+        }
+    }
+}
+
 /// A trace, ready to be played.
 pub struct Baked {
-    /// The file.
+    /// The file, or what else it is called.
     pub name: String,
     pub movie: Movie,
 }
 
 impl Baked {
-    /// Replays the trace that `open` opens through `engine`, which is at its start and shows its scene.
+    /// Replays the trace that `open` opens through `engine`, which is at its start and shows `scene`.
     pub fn of<R: BufRead>(
         name: &str,
+        seen: Seen,
         engine: &mut Engine,
-        plant: &Plant,
+        (plant, scene): (&Plant, &Scene),
         mut open: impl FnMut() -> Result<Reader<R>, TraceError>,
     ) -> Result<Baked, BakeError> {
         let survey = Survey::of(&plant.signal_map, open()?)?;
@@ -58,15 +80,19 @@ impl Baked {
             return Err(BakeError::Empty { file: name.to_owned() });
         }
         let reader = open()?;
-        let measured = reader.header().source == crate::trace::Source::Plant;
-        let mut movie = Movie::default();
+        let mut movie = match seen {
+            Seen::Recorded => Movie::of_machine(Reported::read(&plant.signal_map, scene, open()?)?),
+            Seen::Model => Movie::default(),
+        };
         let watch = |engine: &mut Engine| movie.take(engine);
         replay::watched(engine, &plant.signal_map, &survey, reader, &Tolerances::default(), watch)
             .map_err(|source| BakeError::Replay { file: name.to_owned(), source })?;
-        if measured {
-            movie.measured(plant, open()?)?;
-        }
         Ok(Baked { name: name.to_owned(), movie })
+    }
+
+    /// The same by another name.
+    pub fn called(self, name: &str) -> Baked {
+        Baked { name: name.to_owned(), ..self }
     }
 }
 

@@ -2,10 +2,10 @@
 //
 //   node e2e/main.mjs            pictures go to target/view
 //   node e2e/main.mjs --write    to docs/view, where the documentation shows them
-//   node e2e/main.mjs run        that step alone: run, trace (and after it gap)
+//   node e2e/main.mjs run        that step alone: run, trace (and after it gap), machine
 
 import assert from "node:assert/strict";
-import { cpSync, mkdtempSync, readdirSync, rmSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { ask, browse, differing, done, drawn, root, shoot, start, until } from "./bench.mjs";
@@ -18,7 +18,7 @@ const say = (what) => console.log(`  ${what}`);
 let trace;
 
 const wanted = process.argv.slice(2).filter((word) => !word.startsWith("--"));
-const steps = [["run", live], ["trace", playback], ["gap", gap]].filter(([name]) => wanted.length === 0 || wanted.includes(name));
+const steps = [["run", live], ["trace", playback], ["machine", machine], ["gap", gap]].filter(([name]) => wanted.length === 0 || wanted.includes(name));
 let failed = 0;
 for (const [name, step] of steps) {
   const begun = Date.now();
@@ -261,6 +261,50 @@ async function playback() {
     await until(async () => Math.abs((await head()).time_s - (await head()).ends_s) < 0.01);
     say("it plays backwards, stops and goes to its end by keys");
     assert.equal((await ask(url, "POST", "/api/run/pause")).status, 409, "a trace cannot be changed");
+    await page.close();
+  } finally {
+    assert.equal(await view.end(), 0, view.said());
+  }
+}
+
+// A machine whose robot is slower than the model's: what it reported, and over it what the model does under the same commands.
+async function machine() {
+  const slow = join(folder, "slow");
+  cpSync(join(folder, "models"), join(slow, "models"), { recursive: true });
+  cpSync(join(folder, "signals-maps"), join(slow, "signals-maps"), { recursive: true });
+  const plant = join(slow, "models/depalletizer/plant.xml");
+  const nominal = readFileSync(plant, "utf8");
+  const slower = nominal.replace('name="maxVelocityY" value="2.0 m/s"', 'name="maxVelocityY" value="0.6 m/s"');
+  assert.notEqual(slower, nominal);
+  writeFileSync(plant, slower);
+  await done(["run", "models/depalletizer", "--speed", "max", "--for", "20s", "--record", "../machine.cps.jsonl"], slow);
+  const view = start(["view", "machine.cps.jsonl", "--model", "models/depalletizer", "--simulated", "--listen", process.env.KINETWIN_PORT ?? "0"], folder);
+  const url = await view.url;
+  try {
+    const page = await browser.open(url);
+    const { body } = await ask(url, "GET", "/api/signals/Robot.actualPosY/history");
+    const at = (history, time) => history.findLast(([told]) => told <= time)?.[1] ?? 0;
+    const times = body.trace.map(([told]) => told).filter((told) => told < 20);
+    const apart = (time) => Math.abs(at(body.trace, time) - at(body.ghost, time));
+    const widest = times.reduce((best, time) => (apart(time) > apart(best) ? time : best));
+    assert.ok(apart(widest) > 0.3, `the model's robot is ahead: ${apart(widest)} m`);
+    await ask(url, "POST", "/api/playback", { time_s: widest, paused: true });
+    await page.waitForTimeout(500);
+    await drawn(page);
+    await page.selectOption("select[aria-label=Device]", "Robot");
+    for (const signal of ["Robot.YTarget", "Robot.actualPosY"]) await page.getByRole("button", { name: `Pin ${signal} to the strip below` }).first().click();
+    await page.waitForTimeout(800);
+    await page.evaluate(() => window.kinetwin.world.fit("Robot"));
+    await page.waitForTimeout(800);
+    await drawn(page);
+    const along = () => page.evaluate(() => {
+      const { bodies, ghost } = window.kinetwin.world;
+      return bodies.frames.map((frame, index) => Math.abs(frame.elements[13] - ghost.frames[index].elements[13]));
+    });
+    const shown = Math.max(...(await along()));
+    assert.ok(Math.abs(shown - apart(widest)) < 0.02, `the bodies are as far apart as the signals: ${shown} m, ${apart(widest)} m`);
+    await shoot(page, "measured-and-simulated");
+    say(`a machine and its model, ${shown.toFixed(2)} m apart`);
     await page.close();
   } finally {
     assert.equal(await view.end(), 0, view.said());

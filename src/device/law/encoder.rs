@@ -29,6 +29,13 @@ impl Encoder {
             None => (whole + TWO_31).rem_euclid(2.0 * TWO_31) - TWO_31,
         }
     }
+
+    /// Of the angles with this count, rad, the one nearest to `near`.
+    pub fn angle_near(&self, count: f64, near: f64) -> f64 {
+        let range = self.bits.map_or(2.0 * TWO_31, |bits| f64::from(1_u32 << bits));
+        let turns = ((self.passed(near) - count) / range).round();
+        (count + turns * range) * TAU / self.counts_per_revolution
+    }
 }
 
 const TWO_31: f64 = 2_147_483_648.0;
@@ -67,6 +74,18 @@ mod tests {
         check(None, TWO_31 + 5.0, -TWO_31 + 5.0);
         check(None, -TWO_31 - 1.0, TWO_31 - 1.0);
         check(None, 4.0 * TWO_31 + 3.0, 3.0);
+    }
+
+    #[test]
+    fn an_angle_is_known_from_its_count_and_about_where_it_is() {
+        for bits in [None, Some(8), Some(13)] {
+            let encoder = Encoder { counts_per_revolution: 1000.0, bits };
+            for whole in [-70_001.0, -3.0, 0.0, 127.0, 128.0, 50_000.0] {
+                let angle = whole * TAU / 1000.0;
+                let found = encoder.angle_near(encoder.count(angle), angle + 0.7);
+                assert!((found - angle).abs() < 1e-9, "{whole} with {bits:?}: {found}");
+            }
+        }
     }
 
     #[test]

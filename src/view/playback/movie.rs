@@ -1,16 +1,12 @@
 //! What a replay looked like, picture by picture.
 
-use std::io::BufRead;
-
 use crate::engine::{Engine, Held, PartCounts, PartState};
 use crate::kinematics::DPose3;
-use crate::plant::Plant;
+use crate::replay::Reported;
 use crate::run::control::Picture;
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
-use crate::trace::{Body, Reader, Sender, TraceError};
 use crate::value::Value;
-use crate::wire::{Message, TextForm, read_value};
 
 /// Pictures a simulated second.
 const RATE: i64 = 60;
@@ -33,6 +29,8 @@ pub struct Movie {
     histories: Vec<Vec<(Instant, f64)>>,
     incidents: Vec<(Instant, String)>,
     busy: Vec<(String, f64)>,
+    /// What stands in the place of what the model did.
+    reported: Option<Reported>,
 }
 
 /// A picture.
@@ -65,6 +63,11 @@ struct Change {
 }
 
 impl Movie {
+    /// One in which the machine is seen that `reported` as it did, and the model where nothing was reported.
+    pub fn of_machine(reported: Reported) -> Movie {
+        Movie { reported: Some(reported), ..Movie::default() }
+    }
+
     /// When it ends.
     pub fn ends(&self) -> Instant {
         self.ends
@@ -104,23 +107,48 @@ impl Movie {
     }
 
     fn note_registers(&mut self, now: Instant, registers: &[Value]) {
-        self.histories.resize(registers.len(), Vec::new());
-        for (history, value) in self.histories.iter_mut().zip(registers) {
-            let Some(value) = value.to_f64() else { continue };
+        if self.histories.is_empty() {
+            self.histories = (0..registers.len()).map(|index| self.told(index)).collect();
+        }
+        for (index, (history, value)) in self.histories.iter_mut().zip(registers).enumerate() {
+            let is_told = self.reported.as_ref().is_some_and(|it| it.tells_of(RegisterId(index as u32)));
+            let Some(value) = value.to_f64().filter(|_| !is_told) else { continue };
             if history.last().is_none_or(|(_, last)| *last != value) {
                 history.push((now, value));
             }
         }
     }
 
-    fn still(&self, engine: &Engine) -> Still {
+    /// What was reported of a register.
+    fn told(&self, index: usize) -> Vec<(Instant, f64)> {
+        self.reported.as_ref().map(|it| it.history(RegisterId(index as u32))).unwrap_or_default()
+    }
+
+    fn still(&self, engine: &mut Engine) -> Still {
+        let now = engine.now();
+        let mut registers = engine.registers().to_vec();
+        let mut beams: Vec<bool> = engine.cut_beams().collect();
+        let parts = match &self.reported {
+            Some(reported) => {
+                for (index, register) in registers.iter_mut().enumerate() {
+                    if let Some(told) = reported.at(RegisterId(index as u32), now) {
+                        register.clone_from(told);
+                    }
+                }
+                for (index, beam) in beams.iter_mut().enumerate() {
+                    *beam = reported.is_cut(index, now).unwrap_or(*beam);
+                }
+                engine.show_reported(|register| reported.at(register, now))
+            }
+            None => engine.parts().collect(),
+        };
         let poses = engine.poses().map(|poses| poses.all().iter().map(packed).collect());
         Still {
-            at: engine.now(),
+            at: now,
             poses: poses.unwrap_or_default(),
-            parts: engine.parts().collect(),
-            registers: engine.registers().to_vec(),
-            beams: engine.cut_beams().collect(),
+            parts,
+            registers,
+            beams,
             held: engine.held().to_vec(),
             dead: engine.dead_drives().map(str::to_owned).collect(),
             counts: engine.counts(),
@@ -156,47 +184,6 @@ impl Movie {
         picture.frame.registers = still.registers;
         picture.frame.counts = still.counts;
         picture
-    }
-
-    /// Puts what a machine reported in the place of what the model did: the histories and values of reports, and the joints
-    /// that they tell of.
-    pub fn measured<R: BufRead>(&mut self, plant: &Plant, mut reader: Reader<R>) -> Result<(), TraceError> {
-        let map = &plant.signal_map;
-        let mut reported: Vec<Vec<(Instant, Value)>> = vec![Vec::new(); map.signals().len()];
-        while let Some(line) = reader.next_line()? {
-            let (Body::Message(Message::SendValue(entries)), Sender::Plant) = (&line.body, line.from) else { continue };
-            for entry in entries {
-                let (Some(name), Some(raw)) = (&entry.name, entry.value) else { continue };
-                let Some(register) = map.register(name) else { continue };
-                if let Ok(value) = read_value(raw, map.signal(register).ty, TextForm::Base64) {
-                    reported[register.index()].push((line.at, value));
-                }
-            }
-        }
-        for (register, values) in reported.iter().enumerate().filter(|(_, values)| !values.is_empty()) {
-            let numbers = values.iter().filter_map(|(at, value)| Some((*at, value.to_f64()?)));
-            self.histories[register] = numbers.collect();
-            self.set_register(register, values);
-        }
-        Ok(())
-    }
-
-    fn set_register(&mut self, register: usize, values: &[(Instant, Value)]) {
-        let at = |instant: Instant| {
-            let index = values.partition_point(|(at, _)| *at <= instant);
-            index.checked_sub(1).map(|index| values[index].1.clone())
-        };
-        for whole in &mut self.wholes {
-            if let Some(value) = at(whole.at) {
-                whole.registers[register] = value;
-            }
-        }
-        for change in &mut self.changes {
-            change.registers.retain(|(other, _)| *other as usize != register);
-            if let Some(value) = at(change.at) {
-                change.registers.push((register as u32, value));
-            }
-        }
     }
 }
 
