@@ -7,7 +7,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 
 use super::piece::{COLLISION_M, Piece, apart, bounds_of, pieces_of};
-use crate::kinematics::{Block, Bounds, DPose3, DVec3, JointKind};
+use crate::kinematics::{Block, Bounds, DPose3, DQuat, DVec3, JointKind};
 use crate::scene::{NodeId, Poses, Scene};
 
 /// Something that can be run into.
@@ -58,6 +58,9 @@ struct Mover {
     travel: f64,
     /// Where it may be without being looked up again.
     reach: Bounds,
+    /// The same of its frame's origin, as long as it is turned so.
+    turned: DQuat,
+    origins: Bounds,
     near: Vec<Near>,
     /// Told apart from another in the same place before it.
     generation: u32,
@@ -253,6 +256,8 @@ impl World {
             pose,
             travel: 0.0,
             reach: Bounds::EMPTY,
+            turned: pose.rotation,
+            origins: Bounds::EMPTY,
             near: Vec::new(),
             generation: 0,
             is_there: true,
@@ -281,8 +286,11 @@ impl World {
         let half = pose.rotation.dot(mover.pose.rotation).abs().min(1.0);
         mover.travel += way.length() + 2.0 * mover.radius * (1.0 - half * half).sqrt();
         mover.pose = pose;
-        let now = mover.bounds();
-        let within = now.low.cmpge(mover.reach.low).all() && now.high.cmple(mover.reach.high).all();
+        let within = if pose.rotation == mover.turned {
+            mover.origins.holds(&Bounds { low: pose.translation, high: pose.translation })
+        } else {
+            mover.reach.holds(&mover.bounds())
+        };
         if !within {
             self.look_up(place, way);
         }
@@ -296,6 +304,9 @@ impl World {
         let now = mover.bounds();
         let reach = Bounds { low: now.low - ahead, high: now.high + ahead };
         mover.reach = reach;
+        mover.turned = mover.pose.rotation;
+        let origin = mover.pose.translation;
+        mover.origins = Bounds { low: origin - ahead, high: origin + ahead };
         let (who, generation) = (mover.who, mover.generation);
         let mut near = std::mem::take(&mut mover.near);
         near.clear();

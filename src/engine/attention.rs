@@ -49,9 +49,11 @@ impl Visits {
 }
 
 impl Engine {
-    /// Lets no device sleep from now on, or lets them again: for comparisons, as nothing but the cost of a step depends on it.
+    /// Lets no device sleep from now on, and has everything looked at anew at each step, or lets them again: for comparisons, as
+    /// nothing but the cost of a step depends on it.
     pub fn keep_awake(&mut self, awake: bool) {
         self.attention.never_sleeps = awake;
+        self.floor.forgets = awake;
         self.wake_all();
     }
 

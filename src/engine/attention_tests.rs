@@ -162,6 +162,39 @@ proptest! {
     }
 }
 
+/// Curves, queues, parts across two belts, pallets with their loads: what the belts of the drawn lines have not.
+#[test]
+fn what_is_passed_over_shows_nowhere_on_the_line() {
+    let plant = crate::plant::load(&crate::plant::embedded::Embedded, "models/depalletizer", crate::device::KINDS);
+    let plant = plant.expect("a model of ours");
+    let mut engines = [Driven::new(&plant, 10_000, 1), Driven::new(&plant, 10_000, 1)];
+    engines[1].engine.keep_awake(true);
+    let commands: Vec<String> =
+        plant.signal_map.directed(crate::signal_map::Direction::Command).map(|(_, it)| it.name.clone()).collect();
+    for driven in &mut engines {
+        for name in &commands {
+            match name.rsplit('.').next() {
+                Some("velocityTarget") => driven.set(name, 0.4),
+                Some("motorDirection") => driven.set(name, 1.0),
+                _ => {}
+            }
+        }
+    }
+    for step in 0..6000 {
+        if step % 1500 == 700 {
+            let pushes = if step % 3000 == 700 { 1.0 } else { 2.0 };
+            engines.iter_mut().for_each(|driven| driven.set("Pusher2.command", pushes));
+        }
+        engines.iter_mut().for_each(Driven::tick);
+        let [quick, thorough] = &mut engines;
+        assert_eq!(quick.engine.registers(), thorough.engine.registers(), "at step {step}");
+        assert_eq!(quick.engine.state_hash(), thorough.engine.state_hash(), "at step {step}");
+        assert_eq!(quick.engine.take_incidents(), thorough.engine.take_incidents());
+    }
+    let counts = engines[0].engine.counts();
+    assert!(counts.boxes_out + counts.boxes_lost > 5, "parts went all along it: {counts:?}");
+}
+
 /// Belts in a row, each beside nothing; one pusher.
 fn standing(belts: usize) -> Driven {
     let mut bench = Bench::default().add("Pusher", "Pusher", [0.0, 0.0, 1.0, 0.0], &[]);

@@ -351,6 +351,7 @@ fn belt_body(name: &str, pose: &DPose3, belt: &Belt) -> BeltBody {
         neighbours: Vec::new(),
         open: [true; 2],
         beams,
+        clear: Default::default(),
         drains: Vec::new(),
     }
 }

@@ -31,6 +31,11 @@ impl Bounds {
         other.low.cmpge(self.low).all() && other.high.cmple(self.high).all()
     }
 
+    /// How far the two are apart at least, m; 0 or less where they share a point.
+    pub fn gap(&self, other: &Bounds) -> f64 {
+        (other.low - self.high).max(self.low - other.high).max_element()
+    }
+
     /// Whether the two share a point.
     pub fn meet(&self, other: &Bounds) -> bool {
         self.low.x <= other.high.x
@@ -91,6 +96,11 @@ impl Block {
         self.half * 2.0
     }
 
+    /// A bound of how far its corners are from its upright axis, m.
+    pub fn radius(&self) -> f64 {
+        self.half.x + self.half.y
+    }
+
     /// Where it stands.
     pub fn upright(&self) -> Upright {
         self.upright
@@ -124,6 +134,11 @@ impl Block {
     /// Area of its bottom face, m².
     pub fn area(&self) -> f64 {
         4.0 * self.half.x * self.half.y
+    }
+
+    /// The length of its bottom face's outline, m.
+    pub fn outline(&self) -> f64 {
+        4.0 * (self.half.x + self.half.y)
     }
 
     /// Its bottom face, seen from above.

@@ -186,6 +186,25 @@ impl Surface {
         })
     }
 
+    /// How far any point of `block`, all of whose bottom face is over it, may move at least until a corner of it is not, m.
+    pub fn margin_of(&self, block: &Block) -> f64 {
+        let (half, length) = (self.width() / 2.0, self.length());
+        let margin = |&corner: &DVec2| {
+            let Along { station, offset } = self.locate(corner);
+            let ends = match self.shape {
+                Shape::Straight { .. } => station.min(length - station),
+                Shape::Curve { radius, angle, .. } => {
+                    // How far it is to the line of an end, which runs through the pivot.
+                    let arm = radius - offset * angle.signum();
+                    let swept = station.min(length - station) / radius;
+                    arm * swept.min(std::f64::consts::FRAC_PI_2).sin()
+                }
+            };
+            ends.min(half - offset.abs())
+        };
+        block.footprint().corners().iter().map(margin).fold(f64::INFINITY, f64::min)
+    }
+
     /// The beam of a light barrier across the whole width at `station`, `height` above the surface.
     pub fn beam(&self, station: f64, height: f64) -> Beam {
         let end = |offset| self.at(Along { station, offset }).0.extend(self.origin.z + height);
@@ -258,6 +277,30 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_part_stays_within_as_long_as_it_moves_less_than_its_margin(
+            shape in prop_oneof![
+                Just(STRAIGHT), Just(LEFT), Just(RIGHT), Just(Shape::Curve { radius: 0.5, angle: 2.8, width: 0.6 }),
+            ],
+            (along, across, yaw) in (0.0..1.0, -0.25..0.25, -PI..PI),
+            (way, share, turned) in (-PI..PI, 0.0..1.0, 0.0..1.0),
+        ) {
+            let surface = surface(shape);
+            let place: DVec2 = surface.at(Along { station: surface.length() * along, offset: across }).0;
+            let block = Block::new(DVec3::new(0.2, 0.1, 0.2), Upright { place: place.extend(0.75), yaw });
+            let margin = surface.margin_of(&block);
+            prop_assert_eq!(margin >= 0.0, surface.holds_corners_of(&block), "{}", margin);
+            if margin > 0.0 {
+                // The margin is spent on a shift and on a turn.
+                let left = margin * share * 0.999;
+                let shift: DVec2 = DVec2::from_angle(way) * (left * (1.0 - turned));
+                let turn = left * turned / block.radius();
+                let mut moved = block;
+                moved.move_to(Upright { place: (place + shift).extend(0.75), yaw: yaw + turn });
+                prop_assert!(surface.holds_corners_of(&moved), "margin {}", margin);
+            }
+        }
+
         #[test]
         fn a_place_is_found_again(
             shape in prop_oneof![Just(STRAIGHT), Just(LEFT), Just(RIGHT)], yaw in -3.0..3.0f64,

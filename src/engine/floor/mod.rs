@@ -29,6 +29,7 @@ pub(super) use operate::PartRequest;
 use part::Parts;
 pub(super) use part::Slot;
 pub(super) use part::Support;
+pub(super) use sense::Clear;
 pub(super) use sleep::Listed;
 pub(super) use tally::kind_name;
 pub use tally::{Incident, IncidentKind, PartCounts};
@@ -53,6 +54,7 @@ pub(super) struct BeltBody {
     /// Whether nothing follows at its start, and at its end.
     pub open: [bool; 2],
     pub beams: [Option<Beam>; 2],
+    pub clear: [Clear; 2],
     /// The unloading bays that take parts off it.
     pub drains: Vec<usize>,
 }
@@ -70,6 +72,7 @@ pub(super) struct PlateBody {
     /// How many parts it pushed in this step, those that stand on others apart.
     pub pushed: u32,
     pub beams: [Option<Beam>; 2],
+    clear: [Clear; 2],
 }
 
 impl PlateBody {
@@ -91,6 +94,7 @@ impl PlateBody {
             displacement: 0.0,
             pushed: 0,
             beams: plate.barriers.map(beam),
+            clear: Default::default(),
         };
         body.set(plate.position, 0.0, thickness);
         body
@@ -135,12 +139,20 @@ pub(super) struct Floor {
     /// The plates, and the cups, that are visited; in their order.
     awake_plates: Vec<usize>,
     awake_cups: Vec<usize>,
+    /// Whether nothing that was found far away in one step is passed over in the next.
+    pub forgets: bool,
 }
 
 impl Floor {
     /// One step of `seconds` that ends at `now`, after the devices have moved.
     pub fn advance(&mut self, now: Instant, seconds: f64) {
         self.tally.now = now;
+        self.parts.begin_step();
+        if self.forgets {
+            self.parts.forget();
+            self.belts.iter_mut().for_each(|belt| belt.clear = Default::default());
+            self.plates.iter_mut().for_each(|plate| plate.clear = Default::default());
+        }
         self.handled.clear();
         self.hold();
         self.push();

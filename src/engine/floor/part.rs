@@ -41,6 +41,10 @@ pub(in crate::engine) struct Part {
     pub reach: Bounds,
     /// Where its group may move without waking anybody that it has not woken.
     pub cleared: Bounds,
+    /// How far any of its points may still move until it has to be looked at what bears it, m.
+    pub secure: f64,
+    /// In which of the floor's steps it moved last, and how far any of its points has moved in that at most, m.
+    last_moved: (u64, f64),
 }
 
 /// All parts.
@@ -51,6 +55,10 @@ pub(in crate::engine) struct Parts {
     /// Parts that stand on no other part, in the order of their slots.
     roots: Vec<Slot>,
     last_number: u64,
+    /// Which step of the floor it is.
+    step: u64,
+    /// How far a point of any part has moved at most: in all steps before this one, and in this one, m.
+    travelled: [f64; 2],
     /// Where something has come, gone or moved that was not cleared.
     pub stirred: Vec<Bounds>,
 }
@@ -61,7 +69,17 @@ impl Parts {
         self.last_number += 1;
         let reach = *block.bounds();
         let cleared = Bounds::EMPTY;
-        let part = Part { number: self.last_number, kind, block, support, riders: Vec::new(), reach, cleared };
+        let part = Part {
+            number: self.last_number,
+            kind,
+            block,
+            support,
+            riders: Vec::new(),
+            reach,
+            cleared,
+            secure: 0.0,
+            last_moved: (self.step, 0.0),
+        };
         self.stirred.push(reach);
         let slot = match self.free.pop() {
             Some(slot) => slot,
@@ -94,7 +112,9 @@ impl Parts {
     /// Lets a part stand on something else.
     pub fn set_support(&mut self, slot: Slot, support: Support) {
         self.leave(slot);
-        self.get_mut(slot).support = support;
+        let part = self.get_mut(slot);
+        part.support = support;
+        part.secure = 0.0;
         self.join(slot, support);
     }
 
@@ -148,6 +168,33 @@ impl Parts {
             Some(part) => part,
             None => unreachable!("a slot outlived its part"),
         }
+    }
+
+    /// The floor's next step begins.
+    pub fn begin_step(&mut self) {
+        self.step += 1;
+        self.travelled = [self.travelled[0] + self.travelled[1], 0.0];
+    }
+
+    /// A bound of how far any point of any part has moved since the beginning, m: what is further from all parts than this has
+    /// grown since is still not reached by any.
+    pub fn travelled(&self) -> f64 {
+        self.travelled[0] + self.travelled[1]
+    }
+
+    /// How many parts there have ever been.
+    pub fn arrivals(&self) -> u64 {
+        self.last_number
+    }
+
+    /// What bears a part need not be looked at until one of its points has moved so far, m.
+    pub fn secure(&mut self, slot: Slot, way: f64) {
+        self.get_mut(slot).secure = way;
+    }
+
+    /// Every part has to be looked at.
+    pub fn forget(&mut self) {
+        self.slots.iter_mut().flatten().for_each(|part| part.secure = 0.0);
     }
 
     /// From now on the group of `slot` may move in `region` without waking anybody.
@@ -218,10 +265,20 @@ impl Parts {
     }
 
     fn relocate_group(&mut self, slot: Slot, way: &dyn Fn(Upright) -> Upright) -> Bounds {
+        let step = self.step;
         let part = self.get_mut(slot);
-        part.block.move_to(way(part.block.upright()));
+        let before = part.block.upright();
+        let after = way(before);
+        part.block.move_to(after);
+        // No point moves further than the centre and than the turn takes the furthest corner.
+        let shift = (after.place - before.place).abs();
+        let moved = shift.x + shift.y + shift.z + (after.yaw - before.yaw).abs() * part.block.radius();
+        part.secure -= moved;
+        let so_far = if part.last_moved.0 == step { part.last_moved.1 } else { 0.0 };
+        part.last_moved = (step, so_far + moved);
         let mut reach = *part.block.bounds();
-        for index in 0..part.riders.len() {
+        self.travelled[1] = self.travelled[1].max(so_far + moved);
+        for index in 0..self.get(slot).riders.len() {
             let rider = self.get(slot).riders[index];
             reach = reach.merged(self.relocate_group(rider, way));
         }

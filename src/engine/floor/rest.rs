@@ -50,6 +50,10 @@ impl Floor {
     /// Finds out what becomes of a part that `belt` moved from where its centre was to where it is.
     pub(super) fn rest_part(&mut self, slot: Slot, belt: usize, from: DVec2) {
         let part = self.parts.get(slot);
+        let has_drains = !self.belts[belt].drains.is_empty();
+        if part.secure > 0.0 && !has_drains {
+            return;
+        }
         let surface = &self.belts[belt].surface;
         let Along { station, offset } = surface.locate(part.block.upright().place.truncate());
         let forwards = self.belts[belt].displacement >= 0.0;
@@ -59,6 +63,8 @@ impl Floor {
         let block = &self.parts.get(slot).block;
         let surface = &self.belts[belt].surface;
         if surface.holds_corners_of(block) {
+            let margin = surface.margin_of(block);
+            self.parts.secure(slot, margin);
             return;
         }
         let [opens_at_start, opens_at_end] = self.belts[belt].open;
@@ -72,6 +78,13 @@ impl Floor {
             self.lose(slot);
         } else if best.0 != belt {
             self.parts.set_support(slot, Support::Belt(best.0));
+        } else if !opens_at_start && !opens_at_end {
+            // Where each point moves by d, what of it is over a belt changes by less than twice its outline times d.
+            let outline = 2.0 * block.outline();
+            let others = standing[1..].iter().fold(0.0, |most: f64, (_, area)| most.max(*area));
+            let lead = (best.1 - others) / (2.0 * outline);
+            let rest = (total - block.area() * LEAST_SHARE) / (standing.len() as f64 * outline);
+            self.parts.secure(slot, lead.min(rest));
         }
     }
 

@@ -1,20 +1,31 @@
 //! What devices learn of the parts about them.
 
+use std::cell::Cell;
+
 use super::Floor;
 use super::part::{Slot, Support};
 use crate::device::Surroundings;
 use crate::kinematics::Beam;
 
+/// Until when a beam need not be looked at, because every part is far from it.
+#[derive(Clone, Debug, Default)]
+pub(in crate::engine) struct Clear {
+    /// What the parts' [`travelled`](super::part::Parts::travelled) has to come to, and how many there were.
+    until: Cell<(f64, u64)>,
+}
+
 impl Floor {
     /// What a conveyor senses.
     pub(in crate::engine) fn at_belt(&self, index: usize) -> Surroundings {
-        let [barrier_a, barrier_b] = self.belts[index].beams.map(|beam| self.is_cut(beam));
+        let belt = &self.belts[index];
+        let [barrier_a, barrier_b] = [0, 1].map(|beam| self.is_cut(belt.beams[beam], &belt.clear[beam]));
         Surroundings { barrier_a, barrier_b, ..Surroundings::default() }
     }
 
     /// What a pusher senses.
     pub(in crate::engine) fn at_plate(&self, index: usize) -> Surroundings {
-        let [barrier_a, barrier_b] = self.plates[index].beams.map(|beam| self.is_cut(beam));
+        let plate = &self.plates[index];
+        let [barrier_a, barrier_b] = [0, 1].map(|beam| self.is_cut(plate.beams[beam], &plate.clear[beam]));
         Surroundings { barrier_a, barrier_b, ..Surroundings::default() }
     }
 
@@ -42,15 +53,27 @@ impl Floor {
         cups.iter().filter(holds).count() as u32
     }
 
-    fn is_cut(&self, beam: Option<Beam>) -> bool {
+    fn is_cut(&self, beam: Option<Beam>, clear: &Clear) -> bool {
         let Some(beam) = beam else { return false };
-        self.parts.roots().iter().any(|&root| {
-            if !beam.bounds().meet(&self.parts.get(root).reach) {
-                return false;
+        let (travelled, arrivals) = (self.parts.travelled(), self.parts.arrivals());
+        let (until, known) = clear.until.get();
+        if travelled < until && arrivals == known {
+            return false;
+        }
+        let mut gap = f64::INFINITY;
+        for &root in self.parts.roots() {
+            let away = beam.bounds().gap(&self.parts.get(root).reach);
+            gap = gap.min(away);
+            if away > 0.0 {
+                continue;
             }
             let mut is_cut = false;
             self.parts.visit_group(root, &mut |_, part| is_cut = is_cut || beam.is_cut_by(&part.block));
-            is_cut
-        })
+            if is_cut {
+                return true;
+            }
+        }
+        clear.until.set((travelled + gap.max(0.0), arrivals));
+        false
     }
 }

@@ -24,6 +24,7 @@ fn belt(shape: Shape, x: f64, y: f64, yaw: f64) -> BeltBody {
         open: [true; 2],
         drains: Vec::new(),
         beams: [None; 2],
+        clear: Default::default(),
     }
 }
 
