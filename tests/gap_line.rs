@@ -5,75 +5,20 @@
 //!
 //!     cargo test --release --test gap_line -- --ignored --nocapture
 
-use std::fs::File;
-use std::io::BufReader;
-use std::path::Path;
-use std::time::Duration;
+mod machine;
 
 use kinetwin::gap::diagnosis::{Options, diagnose, kept_back};
 use kinetwin::gap::report::{Report, Verdict};
 use kinetwin::gap::{Recording, Study, locate};
 use kinetwin::plant::Plant;
-use kinetwin::run::{self, Connect, RecordTo, Speed, model};
-use kinetwin::trace::Reader;
+use kinetwin::run::model;
+use machine::{Case, case};
 
 const LINE: &str = "models/depalletizer";
 
-/// An effect on a device of the line.
-#[derive(Clone, Copy, Debug)]
-struct Case {
-    device: &'static str,
-    place: &'static str,
-    effect: &'static str,
-    component: &'static str,
-    parameter: &'static str,
-    value: f64,
-}
-
-const fn case(
-    device: &'static str,
-    (place, effect, component): (&'static str, &'static str, &'static str),
-    parameter: &'static str,
-    value: f64,
-) -> Case {
-    Case { device, place, effect, component, parameter, value }
-}
-
-impl Case {
-    fn xml(&self) -> String {
-        let Case { place, effect, component, parameter, value, .. } = self;
-        let component = if component.is_empty() { String::new() } else { format!(" component=\"{component}\"") };
-        format!(
-            r#"<effect place="{place}" kind="{effect}"{component}><parameter name="{parameter}" value="{value}"/></effect>"#
-        )
-    }
-}
-
 /// The line under its automation for some seconds.
 fn record(plant: &Plant, case: Option<&Case>, seconds: u64) -> Recording {
-    let folder = tempfile::tempdir().expect("a folder");
-    let base = Path::new(env!("CARGO_MANIFEST_DIR")).join(LINE).join("plant.xml");
-    let mut text = std::fs::read_to_string(base).expect("the line's plant");
-    if let Some(case) = case {
-        let begin = format!("<instance name=\"{}\"", case.device);
-        let (before, after) = text.split_once(&begin).expect("the instance");
-        let after = after.replacen("</instance>", &format!("{}</instance>", case.xml()), 1);
-        text = format!("{before}{begin}{after}");
-    }
-    let model = folder.path().join("plant.xml");
-    std::fs::write(&model, text).expect("a plant");
-    let path = folder.path().join("line.cps.jsonl");
-    let options = run::Options {
-        connect: Some(Connect::Embedded),
-        seed: 5,
-        speed: Speed::Max,
-        duration: Some(Duration::from_secs(seconds)),
-        record: Some(RecordTo { path: path.clone(), replace: false }),
-        ..run::Options::new(model.to_str().expect("a path"))
-    };
-    run::start(&options).expect("the run starts").finish().expect("the run ends");
-    let reader = Reader::new("line", BufReader::new(File::open(&path).expect("it opens"))).expect("a trace");
-    Recording::read(plant, "line", reader, &[]).expect("a recording of the line")
+    machine::record(LINE, plant, case, seconds)
 }
 
 /// The devices that have a gap of their own.

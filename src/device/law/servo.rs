@@ -17,15 +17,17 @@
 //! The motion is computed by its Taylor series from one change of regime (a limit taken or left) to the next, so that it
 //! is exact whatever the span: see [`super::taylor`].
 
-use super::taylor::{RECIPROCALS, Series};
+use super::taylor::{ORDER, RECIPROCALS, Series, order_for};
 
 /// Standard gravity, m/s² (3rd CGPM, 1901).
 const GRAVITY: f64 = 9.80665;
 
-/// The steps a motion is computed in, as a multiple of 1 / ρ, where ρ bounds its rates: what [`Series::ORDER`] is good for.
+/// The steps a motion is computed in, as a multiple of 1 / ρ, where ρ bounds its rates: what [`ORDER`] is good for.
 const LINEAR_STEP: f64 = 2.0;
 /// The same with a pendulum, whose series converges only near the start of the step.
 const PENDULUM_STEP: f64 = 0.25;
+/// How many coefficients the series of a short step has at most, so that it need not carry the room of a long one.
+const FEW: usize = 10;
 /// How many changes of regime a single span may hold. A motion that touches a limit for an instant may ask for more by
 /// rounding alone; what is then left of the span is computed in the regime it has.
 const MOST_CHANGES: u32 = 64;
@@ -89,15 +91,15 @@ enum Regime {
 }
 
 /// The motion over a stretch of time.
-struct Motion {
-    position: Series,
-    velocity: Series,
-    integral: Series,
-    demand: Series,
+struct Motion<const COUNT: usize> {
+    position: Series<COUNT>,
+    velocity: Series<COUNT>,
+    integral: Series<COUNT>,
+    demand: Series<COUNT>,
 }
 
-impl Motion {
-    fn new(order: usize) -> Motion {
+impl<const COUNT: usize> Motion<COUNT> {
+    fn new(order: usize) -> Self {
         let zero = Series::zero(order);
         Motion { position: zero, velocity: zero, integral: zero, demand: zero }
     }
@@ -227,21 +229,63 @@ impl Servo {
 
     /// Moves by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
+        if self.is_open() {
+            return self.glide(seconds);
+        }
         let mut rest = seconds;
         let mut changes = 0;
         while rest > 0.0 {
-            let regime = self.regime();
             let (rate, longest) = self.pace();
             let step = rest.min(longest);
-            let motion = self.motion(regime, Series::order_for(rate * step));
-            let change = if changes < MOST_CHANGES { self.change(regime, &motion, step) } else { None };
+            let order = order_for(rate * step);
+            let may_change = changes < MOST_CHANGES;
+            let change = if order < FEW {
+                self.advance_by::<FEW>(step, order, may_change)
+            } else {
+                self.advance_by::<{ ORDER + 1 }>(step, order, may_change)
+            };
             changes += u32::from(change.is_some());
-            let taken = change.unwrap_or(step);
-            self.position = motion.position.at(taken);
-            self.velocity = motion.velocity.at(taken);
-            self.integral = motion.integral.at(taken);
-            rest -= taken;
+            rest -= change.unwrap_or(step);
         }
+    }
+
+    /// Moves by `step`, or to where the motion leaves its regime before that; gives when it did.
+    fn advance_by<const COUNT: usize>(&mut self, step: f64, order: usize, may_change: bool) -> Option<f64> {
+        let regime = self.regime();
+        let motion = self.motion::<COUNT>(regime, order);
+        let change = if may_change { self.change(regime, &motion, step) } else { None };
+        let taken = change.unwrap_or(step);
+        self.position = motion.position.at(taken);
+        self.velocity = motion.velocity.at(taken);
+        self.integral = motion.integral.at(taken);
+        change
+    }
+
+    /// Whether a force drives it that nothing changes, against friction and a constant load alone.
+    fn is_open(&self) -> bool {
+        let Loop { position_gain, velocity_gain, integral_time, limit, .. } = self.drive;
+        limit == f64::MAX
+            && position_gain == 0.0
+            && velocity_gain == 0.0
+            && integral_time.is_none()
+            && self.mechanics.pendulum == 0.0
+    }
+
+    /// Moves by `seconds` where it [is open](Self::is_open): M·dv/dt = F − load − d·v, whose solution with r = d/M·t is
+    /// v + (dv/dt)·t·φ₁(r) and x + v·t + (dv/dt)·t²·φ₂(r), with φ₁ = (1 − e⁻ʳ)/r and φ₂ = (1 − φ₁)/r.
+    fn glide(&mut self, seconds: f64) {
+        let slope = self.acceleration();
+        let r = self.damping() / self.mechanics.inertia * seconds;
+        let (first, second) = if r.abs() < 0.02 {
+            // Their series: the first neglected terms are below 10⁻¹⁵.
+            let second = 0.5 - r * (1.0 / 6.0 - r * (1.0 / 24.0 - r * (1.0 / 120.0 - r * (1.0 / 720.0 - r / 5040.0))));
+            (1.0 - r * second, second)
+        } else {
+            let first = -(-r).exp_m1() / r;
+            (first, (1.0 - first) / r)
+        };
+        self.position += self.velocity * seconds + slope * seconds * seconds * second;
+        self.velocity += slope * seconds * first;
     }
 
     /// A bound of the rates at which the motion changes from here on, 1/s, and how far its series is good for, s.
@@ -297,11 +341,12 @@ impl Servo {
     /// Friction and load now, N or N·m; what the motor's own voltage takes counts as friction.
     pub fn resistance(&self) -> f64 {
         let Mechanics { load, pendulum, .. } = self.mechanics;
-        self.damping() * self.velocity + load + pendulum * GRAVITY * self.position.sin()
+        let weight = if pendulum == 0.0 { 0.0 } else { pendulum * GRAVITY * self.position.sin() };
+        self.damping() * self.velocity + load + weight
     }
 
     /// When within `step` the motion leaves its regime.
-    fn change(&self, regime: Regime, motion: &Motion, step: f64) -> Option<f64> {
+    fn change<const COUNT: usize>(&self, regime: Regime, motion: &Motion<COUNT>, step: f64) -> Option<f64> {
         let limit = self.drive.limit;
         match regime {
             Regime::Off => None,
@@ -316,7 +361,7 @@ impl Servo {
     }
 
     /// The motion from here on in `regime`, by the recurrences of its equations' coefficients.
-    fn motion(&self, regime: Regime, order: usize) -> Motion {
+    fn motion<const COUNT: usize>(&self, regime: Regime, order: usize) -> Motion<COUNT> {
         let Loop { position_gain, velocity_gain, integral_time, limit, .. } = self.drive;
         let Mechanics { inertia, load, pendulum, .. } = self.mechanics;
         let damping = self.damping();
@@ -325,7 +370,7 @@ impl Servo {
         let mut motion = Motion::new(order);
         let (x, v) = (&mut motion.position.coefficients, &mut motion.velocity.coefficients);
         let (i, demand) = (&mut motion.integral.coefficients, &mut motion.demand.coefficients);
-        let mut weight = Pendulum::new(pendulum * GRAVITY, self.position);
+        let mut weight = (pendulum > 0.0).then(|| Pendulum::new(pendulum * GRAVITY, self.position));
         (x[0], v[0], i[0]) = (self.position, self.velocity, if self.torque { self.integral } else { 0.0 });
         // What is constant enters the coefficients of power 0 alone.
         let (mut reference, mut constant_load) = (self.reference, load);
@@ -337,12 +382,15 @@ impl Servo {
         for k in 0..order {
             demand[k] = reference - position_gain * x[k] - velocity_gain * v[k] + i[k];
             let force = if regime == Regime::Free { demand[k] } else { constant_force };
-            let resistance = damping * v[k] + constant_load + weight.coefficient(k);
+            let weighs = weight.as_ref().map_or(0.0, |weight| weight.coefficient(k));
+            let resistance = damping * v[k] + constant_load + weighs;
             let share = RECIPROCALS[k + 1];
             x[k + 1] = v[k] * share;
             v[k + 1] = (force - resistance) * mobility * share;
             i[k + 1] = (force - i[k]) * reset * share;
-            weight.extend(k, x);
+            if let Some(weight) = &mut weight {
+                weight.extend(k, x);
+            }
             (reference, constant_load, constant_force) = (0.0, 0.0, 0.0);
         }
         demand[order] = i[order] - position_gain * x[order] - velocity_gain * v[order];
@@ -360,18 +408,16 @@ impl Servo {
 }
 
 /// The coefficients of weight·sin(x) along a motion: s' = c·x', c' = −s·x'.
-struct Pendulum {
+struct Pendulum<const COUNT: usize> {
     weight: f64,
-    sine: [f64; Series::ORDER + 1],
-    cosine: [f64; Series::ORDER + 1],
+    sine: [f64; COUNT],
+    cosine: [f64; COUNT],
 }
 
-impl Pendulum {
-    fn new(weight: f64, position: f64) -> Pendulum {
-        let mut pendulum = Pendulum { weight, sine: [0.0; Series::ORDER + 1], cosine: [0.0; Series::ORDER + 1] };
-        if weight > 0.0 {
-            (pendulum.sine[0], pendulum.cosine[0]) = position.sin_cos();
-        }
+impl<const COUNT: usize> Pendulum<COUNT> {
+    fn new(weight: f64, position: f64) -> Self {
+        let mut pendulum = Pendulum { weight, sine: [0.0; COUNT], cosine: [0.0; COUNT] };
+        (pendulum.sine[0], pendulum.cosine[0]) = position.sin_cos();
         pendulum
     }
 
@@ -380,10 +426,7 @@ impl Pendulum {
     }
 
     /// Coefficient k + 1 of sine and cosine, from those up to k and the position's up to k + 1.
-    fn extend(&mut self, k: usize, position: &[f64; Series::ORDER + 1]) {
-        if self.weight == 0.0 {
-            return;
-        }
+    fn extend(&mut self, k: usize, position: &[f64; COUNT]) {
         let (mut sine, mut cosine) = (0.0, 0.0);
         for j in 0..=k {
             let rate = (j + 1) as f64 * position[j + 1];
@@ -409,6 +452,27 @@ mod tests {
 
     fn check(found: f64, expected: f64, tolerance: f64) {
         assert!((found - expected).abs() <= tolerance, "{found} instead of {expected}");
+    }
+
+    #[test]
+    fn under_a_force_that_nothing_changes_it_glides_as_its_series_has_it() {
+        for (viscous_friction, seconds) in
+            [(0.0, 0.3), (0.5, 0.3), (50.0, 1e-4), (50.0, 7e-3), (50.0, 9e-3), (3000.0, 0.01)]
+        {
+            let mut glides = rig(1000.0);
+            (glides.position, glides.velocity) = (0.2, -0.7);
+            glides.burden(Mechanics { inertia: 20.0, viscous_friction, load: 30.0, pendulum: 0.0 });
+            glides.open(80.0);
+            let mut series = glides;
+            // A limit far off: the same motion, computed as any.
+            series.limit(1e9);
+            assert!(glides.is_open() && !series.is_open());
+            glides.advance(seconds);
+            series.advance(seconds);
+            check(glides.position, series.position, 1e-14);
+            check(glides.velocity, series.velocity, 2e-14);
+            assert!((glides.velocity + 0.7).abs() > 1e-5);
+        }
     }
 
     /// The same motion by a method of its own: classical Runge-Kutta in steps so short that a limit taken within one

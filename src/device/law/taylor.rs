@@ -1,7 +1,7 @@
 //! Motions as power series in time, and the first instant at which one crosses a level.
 //!
 //! A motion whose equation is linear, or a pendulum's, is computed by its Taylor series: each coefficient follows from
-//! the ones before. Within the step that [`Series::ORDER`] allows, the series is the exact solution but for rounding, and
+//! the ones before. Within the step that [`ORDER`] allows, the series is the exact solution but for rounding, and
 //! events are found on the motion itself instead of between samples of it. (A. Jorba, M. Zou, A software package for the
 //! numerical integration of ODEs by means of high-order Taylor methods, Experimental Mathematics 14, 2005.)
 
@@ -11,45 +11,45 @@ const INTERVALS: u32 = 8;
 
 /// A power series in time, in seconds from the start of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Series {
+pub struct Series<const COUNT: usize = { ORDER + 1 }> {
     /// By power.
-    pub coefficients: [f64; Series::ORDER + 1],
-    /// The highest power in use, at least 1.
+    pub coefficients: [f64; COUNT],
+    /// The highest power in use, at least 1 and below `COUNT`.
     pub order: usize,
 }
 
+/// The highest power of all. With a step of 2 / ρ, where ρ bounds the motion's rates, the first neglected term is below
+/// 2²¹ / 21! = 4·10⁻¹⁴ of the motion.
+pub const ORDER: usize = 20;
+
+/// The highest power that a step needs: `reach` is its length times a bound of the motion's rates. Where [`ORDER`] allows,
+/// reachⁿ / n! is below 10⁻¹⁷; three powers more hold what enters from outside, which no rate bounds: a constant force
+/// moves the position with the square of the time, its integral with the cube.
+pub fn order_for(reach: f64) -> usize {
+    let mut term = reach;
+    let mut order = 1;
+    while order < ORDER - 3 && term > 1e-17 {
+        order += 1;
+        term *= reach * RECIPROCALS[order];
+    }
+    order + 3
+}
+
 /// 1 / n; that of 0 is never used.
-pub const RECIPROCALS: [f64; Series::ORDER + 1] = {
-    let mut reciprocals = [0.0; Series::ORDER + 1];
+pub const RECIPROCALS: [f64; ORDER + 1] = {
+    let mut reciprocals = [0.0; ORDER + 1];
     let mut n = 1;
-    while n <= Series::ORDER {
+    while n <= ORDER {
         reciprocals[n] = 1.0 / n as f64;
         n += 1;
     }
     reciprocals
 };
 
-impl Series {
-    /// The highest power. With a step of 2 / ρ, where ρ bounds the motion's rates, the first neglected term is below
-    /// 2²¹ / 21! = 4·10⁻¹⁴ of the motion.
-    pub const ORDER: usize = 20;
-
+impl<const COUNT: usize> Series<COUNT> {
     /// No motion yet, in powers up to `order`.
-    pub fn zero(order: usize) -> Series {
-        Series { coefficients: [0.0; Series::ORDER + 1], order }
-    }
-
-    /// The highest power that a step needs: `reach` is its length times a bound of the motion's rates. Where
-    /// [`Series::ORDER`] allows, reachⁿ / n! is below 10⁻¹⁷; three powers more hold what enters from outside, which no rate
-    /// bounds: a constant force moves the position with the square of the time, its integral with the cube.
-    pub fn order_for(reach: f64) -> usize {
-        let mut term = reach;
-        let mut order = 1;
-        while order < Series::ORDER - 3 && term > 1e-17 {
-            order += 1;
-            term *= reach * RECIPROCALS[order];
-        }
-        order + 3
+    pub fn zero(order: usize) -> Self {
+        Series { coefficients: [0.0; COUNT], order }
     }
 
     /// The value after `seconds`.
@@ -118,7 +118,7 @@ mod tests {
 
     /// amplitude · sin(rate · t + phase).
     fn sine(amplitude: f64, rate: f64, phase: f64) -> Series {
-        let mut series = Series::zero(Series::ORDER);
+        let mut series = Series::zero(ORDER);
         let mut factor = amplitude;
         for (k, coefficient) in series.coefficients.iter_mut().enumerate() {
             let turned = phase + std::f64::consts::FRAC_PI_2 * k as f64;

@@ -177,18 +177,28 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
 /// The best of the rung, refitted with everything free: what costs least, where a further parameter and a nominal parameter that
 /// is wrong have to be worth it; with the device as it weighs it.
 fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Option<(Trial, Subject)> {
-    let handicapped = |trial: &Trial, inflation: f64| trial.cost + handicap(trial, below.set.len()) * inflation;
-    let inflation = rivals.first()?.inflation();
+    // What remembers itself is what a trial leaves, and not what another does.
+    let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * trial.inflation();
     let mut order: Vec<&Trial> = rivals.iter().collect();
-    order.sort_by(|a, b| handicapped(a, inflation).total_cmp(&handicapped(b, inflation)));
-    let first: Vec<&Trial> = order.into_iter().take(3).collect();
+    order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
+    let mut first: Vec<&Trial> = order.into_iter().take(3).collect();
+    // Weighed by what no effect leaves, one that leaves nothing may seem not to be worth its parameters.
+    let closest = rivals.iter().min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    if !first.iter().any(|trial| std::ptr::eq(*trial, closest)) {
+        first.push(closest);
+    }
     let settled: Vec<(Trial, Subject)> =
         first.par_iter().filter_map(|trial| settle(bench, weighed, trial, below.set.is_empty())).collect();
-    // They are compared as the first of them weighs the device.
-    let common = bench.with(&settled.first()?.1);
+    // They are compared as the one of them weighs the device that leaves the least.
+    let left = |(trial, _): &(Trial, Subject)| {
+        weighed.trial(&trial.set, trial.at.clone()).map_or(f64::INFINITY, |trial| trial.cost)
+    };
+    let left: Vec<f64> = settled.iter().map(left).collect();
+    let closest = (0..settled.len()).min_by(|a, b| left[*a].total_cmp(&left[*b]))?;
+    let common = bench.with(&settled[closest].1);
     let score = |(trial, _): &(Trial, Subject)| {
         let scored = common.trial(&trial.set, trial.at.clone());
-        scored.map_or(f64::INFINITY, |scored| handicapped(&scored, inflation))
+        scored.map_or(f64::INFINITY, |scored| handicapped(&scored))
     };
     let scores: Vec<f64> = settled.iter().map(score).collect();
     let best = (0..settled.len()).min_by(|a, b| scores[*a].total_cmp(&scores[*b]))?;

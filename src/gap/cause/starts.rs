@@ -26,6 +26,9 @@ pub struct Clues<'a> {
 
 /// From which value on a limit is taken to limit nothing.
 pub const UNLIMITED: f64 = 1e8;
+/// How fast what hangs on a spring swings where the search for it begins, rad/s, and how fast it may.
+const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0];
+const STIFFEST: f64 = 3000.0;
 /// The longest time that is searched for, s.
 const LONGEST_S: f64 = 3.0;
 /// The most starts of one candidate.
@@ -143,6 +146,18 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
     if parameter.quantities.contains(&Quantity::Time) {
         let longest = greatest.min(LONGEST_S);
         return (range(least, longest, 0.02), time_starts(clues).into_iter().filter(|time| *time < longest).collect());
+    }
+    if let ("compliance", name) = (candidate.effect.id, parameter.name) {
+        // Of two masses, half of the inertia each, a quarter swings; where no inertia is known a kilogram does.
+        let mass = if clues.scales.inertia == 1.0 { 1.0 } else { 0.25 * clues.scales.inertia };
+        let stiffness = |turn: &f64| mass * turn * turn;
+        return match name {
+            "stiffness" => {
+                let starts = SWINGS.iter().rev().map(stiffness).collect();
+                (range(least, stiffness(&STIFFEST), 0.1 * stiffness(&SWINGS[2])), starts)
+            }
+            _ => (range(0.0, mass * STIFFEST, 0.1 * mass * SWINGS[2]), times(&[2.0, 20.0, 200.0], mass)),
+        };
     }
     if parameter.nominal >= UNLIMITED {
         // Above what the device does it would do nothing.

@@ -2,9 +2,10 @@
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bare, Bench, Bounds, Ladder, Remainder, answers, climb, intervals, misfit, plainness,
-    remainder,
+    Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Trial, anew, answers, climb, intervals,
+    misfit, plainness, remainder,
 };
+use crate::gap::fit::Effort;
 use crate::gap::{Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
@@ -67,7 +68,11 @@ pub(super) fn find(
 ) -> Option<Finding> {
     let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);
     let evident = evidence(subject, &bare.prediction) > THRESHOLD;
-    let ladder = climb(&bench, &bare.at, evident, options.is_asked, options.tell)?;
+    let mut ladder = climb(&bench, &bare.at, evident, options.is_asked, options.tell)?;
+    if let Some(at) = fitted_better(&bench, &ladder) {
+        let evident = evidence(subject, &bench.predict(&[], &at)?) > THRESHOLD;
+        ladder = climb(&bench, &at, evident, options.is_asked, options.tell)?;
+    }
     let bare = subject.score(&bench.predict(&[], &ladder.bare.at)?);
     let mut finding = Finding {
         subject: place,
@@ -105,6 +110,23 @@ pub(super) fn find(
     };
     finding.replays = bench.replays();
     Some(finding)
+}
+
+/// Where the nominal parameters alone explain much of what an effect seemed to: the search for it moved them out of a false minimum.
+fn fitted_better(bench: &Bench<'_>, ladder: &Ladder) -> Option<Vec<f64>> {
+    const MOST: usize = 3;
+    const MUCH: f64 = 0.3;
+    if ladder.best.set.is_empty() || bench.nuisances.is_empty() || bench.is_rugged() {
+        return None;
+    }
+    let begin = |trial: &Trial| -> Vec<f64> {
+        let named = |nuisance: &Nuisance| trial.overrides.0.get(nuisance.name).copied();
+        let own = bench.nuisances.iter().zip(&ladder.bare.at);
+        own.map(|(nuisance, bare)| named(nuisance).unwrap_or(*bare)).collect()
+    };
+    let starts: Vec<Vec<f64>> = std::iter::once(&ladder.best).chain(&ladder.singles).take(MOST).map(begin).collect();
+    let trial = bench.fit(&[], &starts, Effort { starts: 1, ..anew(bench.nuisances.len()) })?;
+    (ladder.bare.cost - trial.cost > MUCH * ladder.excess()).then_some(trial.at)
 }
 
 /// Whether the bare model costs more than noise and the estimate of it allow.
