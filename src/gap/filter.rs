@@ -22,11 +22,15 @@ const FILTER_STEP_S: f64 = 1e-4;
 /// How far an edge may be off, standard deviation, s, and how much a stray counts.
 const EDGE_SIGMA_S: f64 = 1.5e-4;
 const STRAY: f64 = 9.0;
-/// The filters that are tried with nominal parameters beside them, s; then shares of the best.
+/// The filters that are tried with nominal parameters beside them, s, where none is known, and which shares of one that is; then shares
+/// of the best.
 const TRIED_S: [f64; 5] = [3e-4, 6e-4, 1e-3, 2e-3, 4e-3];
+const NEAR_THE_KNOWN: [f64; 4] = [0.55, 0.75, 1.33, 1.8];
 const SHARES: [f64; 2] = [0.8, 1.25];
-/// By how much no device may be further off under such a filter, in deviance: it is all devices' or none's.
+/// By how much no device may be further off under such a filter, in deviance, and by which share of what all gain more: it is all
+/// devices' or none's.
 const NOT_FURTHER: f64 = 1.0;
+const SHARE_NOT_FURTHER: f64 = 0.05;
 
 /// By how much all flags but beams are late beyond the age, s: the same of several devices; 0 where they do not agree on any.
 pub(super) fn find(subjects: &[Subject], bare: &[Bare], run: usize) -> f64 {
@@ -80,8 +84,10 @@ struct Tried {
 }
 
 /// Tries filters with nominal parameters fitted beside each, in all runs, and sets the one that explains more than chance does: in
-/// `subjects`, and what they are under it in `bare`. What it is; `None` where there is none.
+/// `subjects`, and what they are under it in `bare`. What it is; `None` where there is none. Where one is `known`, 0 if none is, it is
+/// one of the delays between two looks that do equally well, and filters about it are tried.
 pub(super) fn find_beside_parameters(
+    known_s: f64,
     subjects: &mut [Subject],
     nominal: &[Prediction],
     bare: &mut [Bare],
@@ -111,12 +117,18 @@ pub(super) fn find_beside_parameters(
         });
         let (subjects, bare): (Vec<Subject>, Vec<Bare>) = each.collect::<Vec<_>>().into_iter().unzip();
         let after = costs(&subjects, &bare);
-        let is_further = before.iter().zip(&after).any(|(before, after)| after - before > NOT_FURTHER);
-        let cost = if is_further { f64::INFINITY } else { after.iter().sum() };
+        let further = before.iter().zip(&after).map(|(before, after)| after - before).fold(0.0, f64::max);
+        let cost: f64 = after.iter().sum();
+        let nearer = before.iter().sum::<f64>() - cost;
+        let cost = if further > NOT_FURTHER + SHARE_NOT_FURTHER * nearer { f64::INFINITY } else { cost };
         Tried { filter_s, cost, bare }
     };
     let nearer = |a: Tried, b: Tried| if b.cost < a.cost { b } else { a };
-    let best = TRIED_S.iter().map(|filter_s| under(*filter_s)).reduce(nearer)?;
+    let tried = match known_s > 0.0 {
+        true => NEAR_THE_KNOWN.map(|share| share * known_s).to_vec(),
+        false => TRIED_S.to_vec(),
+    };
+    let best = tried.into_iter().map(under).reduce(nearer)?;
     let around: Vec<f64> = SHARES.iter().map(|share| share * best.filter_s).collect();
     let best = around.into_iter().map(under).fold(best, nearer);
     if before.iter().sum::<f64>() - best.cost <= THRESHOLD {

@@ -176,11 +176,11 @@ impl Study {
         let is_off = |(subject, bare): (&Subject, &Bare)| evidence(subject, &bare.prediction) > THRESHOLD;
         // What we recorded ourselves passed none.
         let is_machine = recordings.iter().all(|recording| recording.step().is_none());
-        let has_none = self.tasks.iter().all(|task| task.filter_s == 0.0);
+        let known = self.tasks.iter().map(|task| task.filter_s).fold(0.0, f64::max);
         if is_machine
-            && has_none
             && self.subjects.iter().zip(&self.bare).any(is_off)
-            && let Some(filter_s) = filter::find_beside_parameters(&mut self.subjects, &self.nominal, &mut self.bare)
+            && let Some(filter_s) =
+                filter::find_beside_parameters(known, &mut self.subjects, &self.nominal, &mut self.bare)
         {
             self.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
         }

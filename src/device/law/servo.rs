@@ -27,7 +27,7 @@ const LINEAR_STEP: f64 = 2.0;
 /// The same with a pendulum, whose series converges only near the start of the step.
 const PENDULUM_STEP: f64 = 0.25;
 /// How many coefficients the series of a short step has at most, so that it need not carry the room of a long one.
-const FEW: usize = 10;
+const FEW: usize = 16;
 /// How many changes of regime a single span may hold. A motion that touches a limit for an instant may ask for more by
 /// rounding alone; what is then left of the span is computed in the regime it has.
 const MOST_CHANGES: u32 = 64;

@@ -125,12 +125,13 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
         return false;
     }
-    if plain.cost - ladder.floor.0 < least_gain(1, 1) * plain.inflation() {
+    let excess = |bench: &Bench<'_>, trial: &Trial| (trial.cost - floor_of(bench, trial)).max(above(bench, trial));
+    if excess(bench, &plain) < least_gain(1, 1) * plain.inflation() {
         return false;
     }
     let subject = ladder.subject.clone();
     let weighed = bench.with(&subject);
-    let excess = below.cost - floor_of(&weighed, &below);
+    let excess = excess(&weighed, &below);
     let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
     let Some((next, subject)) = choose(bench, &weighed, &below, &rivals) else { return false };
@@ -156,6 +157,19 @@ fn floor_of(bench: &Bench<'_>, trial: &Trial) -> f64 {
     prediction.map_or(0.0, |prediction| floor(&bench.subject.score(&prediction)).0)
 }
 
+/// What the signal costs above its floor that costs the most so: late edges, beside thousands of samples of a level whose noise is
+/// known to a few per cent.
+fn above(bench: &Bench<'_>, trial: &Trial) -> f64 {
+    let prediction = bench.predict(&trial.set, &trial.at);
+    prediction.map_or(0.0, |prediction| most_above(&bench.subject.score(&prediction)).0)
+}
+
+/// What the signal costs above its floor that costs the most so, and that floor with its variance.
+pub fn most_above(score: &Score) -> (f64, (f64, f64)) {
+    let each = score.signals.iter().map(|signal| (signal.cost - signal.floor_cost.0, signal.floor_cost));
+    each.fold((0.0, (0.0, 0.0)), |most, next| if next.0 > most.0 { next } else { most })
+}
+
 /// Below this share of the excess an effect would not be the answer, however sure.
 const SHARE_OF_AN_ANSWER: f64 = 0.3;
 /// In fewer blocks than this a gain is not sure: by the bootstrap, of k blocks among many all are missed with the chance e^-k, and a
@@ -165,11 +179,9 @@ const LEAST_BLOCKS: f64 = 3.7;
 /// How many blocks hold what `next` gains over `below`, where it gains enough to be the answer and they are too few to be sure.
 fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> Option<f64> {
     let below = &bench.trial(&below.set, below.at.clone())?;
-    let gains: Vec<f64> = below.blocks.iter().zip(&next.blocks).map(|(below, next)| (below - next).max(0.0)).collect();
-    let (sum, squares) = gains.iter().fold((0.0, 0.0), |(sum, squares), gain| (sum + gain, squares + gain * gain));
+    let (_, blocks) = gains(&below.blocks, &next.blocks);
     let further = next.parameters() - below.parameters();
     let gains_enough = below.cost - next.cost >= least_gain(further, ladder.tried) * next.inflation();
-    let blocks = sum * sum / f64::max(squares, f64::MIN_POSITIVE);
     let explains = (below.cost - next.cost) / (below.cost - floor_of(bench, below)).max(1.0);
     (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
 }
@@ -268,16 +280,43 @@ fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladd
 /// for a part of the motion, of what `below` leaves; on blocks that the parameters of neither
 /// saw. By block bootstrap.
 fn is_a_share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+    /// How many deviations of the floor an excess must be for the draws of it to say what a share of it is.
+    const PLAIN: f64 = 5.0;
     let Some(bare) = bench.trial(&[], ladder.bare.at.clone()) else { return false };
-    let floor = floor_of(bench, &bare);
+    let Some(prediction) = bench.predict(&[], &bare.at) else { return false };
+    let (floor, variance) = floor(&bench.subject.score(&prediction));
+    let most = above(bench, &bare);
+    let is_plain = bare.cost - floor > PLAIN * variance.sqrt();
     let draws = Draws::new(below.blocks.len(), DRAWS, 1);
     let kept_back = |trial: &Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
     let (before, after) = (kept_back(below), kept_back(next));
     let surely = |whole: &[f64]| {
-        let shares = draws.each(&[whole, &before, &after], |sums| (sums[1] - sums[2]) / (sums[0] - floor).max(1.0));
+        let shares = draws.each(&[whole, &before, &after], |sums| {
+            let excess = if is_plain { sums[0] - floor } else { most };
+            (sums[1] - sums[2]) / excess.max(1.0)
+        });
         quantile(&shares, 0.025)
     };
-    surely(&bare.blocks) >= LEAST_SHARE || (!bench.is_rugged() && surely(&before) >= LEAST_SHARE_OF_REST)
+    let is_confirmed = !is_plain && most > 0.0 && {
+        let (sum, blocks) = gains(&before, &after);
+        let further = next.parameters() - below.parameters();
+        sum > EXPLAINED * most && blocks > FEWEST_BLOCKS * further as f64
+    };
+    is_confirmed
+        || surely(&bare.blocks) >= LEAST_SHARE
+        || (!bench.is_rugged() && surely(&before) >= LEAST_SHARE_OF_REST)
+}
+
+/// An effect in a few rare events is believed where it explains so much of them, each by what the others say, and where they lie in so
+/// many blocks for each of its parameters.
+const EXPLAINED: f64 = 0.7;
+const FEWEST_BLOCKS: f64 = 2.5;
+
+/// What is gained in all, and in how many blocks that lies.
+fn gains(before: &[f64], after: &[f64]) -> (f64, f64) {
+    let gains = before.iter().zip(after).map(|(before, after)| (before - after).max(0.0));
+    let (sum, squares) = gains.fold((0.0, 0.0), |(sum, squares), gain| (sum + gain, squares + gain * gain));
+    (sum, sum * sum / f64::max(squares, f64::MIN_POSITIVE))
 }
 
 /// Takes out what is no longer worth having once the others stand beside it.

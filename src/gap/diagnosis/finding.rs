@@ -3,10 +3,10 @@
 use super::Options;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Trial, anew, answers, climb, intervals,
-    misfit, plainness, remainder,
+    misfit, most_above, plainness, remainder,
 };
 use crate::gap::fit::Effort;
-use crate::gap::{Study, Subject, THRESHOLD, evidence};
+use crate::gap::{Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
 /// What a device's recordings say of it.
@@ -58,6 +58,9 @@ const WORTH_HAVING: f64 = 0.3;
 /// What may be left of a gap that is explained, whatever it goes with.
 const MUCH: f64 = 0.25;
 
+/// How far beyond chance a gap is one though it is less than noise and rounding are, where it goes with something.
+const FAR_BEYOND: f64 = 5.0;
+
 /// Looks at one device. `None` where its reports are not in the recordings.
 pub(super) fn find(
     place: usize,
@@ -84,7 +87,9 @@ pub(super) fn find(
         replays: 0,
         ladder,
     };
-    let has_gap = is_significant(&finding.ladder);
+    let beyond_chance = evidence(subject, &bench.predict(&[], &finding.ladder.bare.at)?);
+    let has_gap =
+        beyond_chance > FAR_BEYOND * THRESHOLD || (beyond_chance > THRESHOLD && is_significant(&finding.ladder, &bare));
     if finding.ladder.best.set.is_empty() {
         if has_gap {
             finding.remainder = remainder(&bench, &finding.ladder)?;
@@ -129,10 +134,12 @@ fn fitted_better(bench: &Bench<'_>, ladder: &Ladder) -> Option<Vec<f64>> {
     (ladder.bare.cost - trial.cost > MUCH * ladder.excess()).then_some(trial.at)
 }
 
-/// Whether the bare model costs more than noise and the estimate of it allow.
-fn is_significant(ladder: &Ladder) -> bool {
-    let (floor, variance) = ladder.floor;
-    ladder.excess() > 18.0 * ladder.bare.inflation().min(10.0) + 5.0 * variance.sqrt() + 0.1 * floor
+/// Whether the bare model costs more than noise and the estimate of it allow: all its signals together, or one by itself.
+fn is_significant(ladder: &Ladder, bare: &Score) -> bool {
+    let least =
+        |(floor, variance): (f64, f64)| 18.0 * ladder.bare.inflation().min(10.0) + 5.0 * variance.sqrt() + 0.1 * floor;
+    let (most, its_floor) = most_above(bare);
+    ladder.excess() > least(ladder.floor) || most > least(its_floor)
 }
 
 /// Of the effects that give the same motion the plainest is named; a nominal parameter that gives it too is another name for it.
