@@ -5,7 +5,6 @@ use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Trial, anew, answers, climb, intervals,
     misfit, most_above, plainness, remainder,
 };
-use crate::gap::fit::Effort;
 use crate::gap::{Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
@@ -130,8 +129,8 @@ fn fitted_better(bench: &Bench<'_>, ladder: &Ladder) -> Option<Vec<f64>> {
         own.map(|(nuisance, bare)| named(nuisance).unwrap_or(*bare)).collect()
     };
     let starts: Vec<Vec<f64>> = std::iter::once(&ladder.best).chain(&ladder.singles).take(MOST).map(begin).collect();
-    let trial = bench.fit(&[], &starts, Effort { starts: 1, ..anew(bench.nuisances.len()) })?;
-    (ladder.bare.cost - trial.cost > MUCH * ladder.excess()).then_some(trial.at)
+    let trial = bench.fit(&[], &starts, anew(bench.nuisances.len()))?;
+    (ladder.bare.cost - trial.cost > (MUCH * ladder.excess()).max(THRESHOLD)).then_some(trial.at)
 }
 
 /// Whether the bare model costs more than noise and the estimate of it allow: all its signals together, or one by itself.
