@@ -13,7 +13,7 @@ use super::replay::open;
 use super::{Answer, Failure, words};
 use crate::engine::Engine;
 use crate::replay::foxglove::Pictures;
-use crate::replay::{self, Reported, Survey, Tolerances};
+use crate::replay::{self, Reported, Seen, Survey, Tolerances};
 use crate::run::{Options, model};
 use crate::scene::Scene;
 use crate::signal_map::{Direction, SignalMap};
@@ -348,13 +348,12 @@ fn export_mcap(arguments: &ExportArguments, file: Output) -> Result<(Output, Exp
     let header = survey.header();
     let step = header.step_ns.map_or(Options::STEP, Duration::from_nanos);
     let mut engine = model::engine(plant, step, header.seed.unwrap_or_default())?;
-    let scene = Arc::new(Scene::of(plant));
-    let machine = match header.source {
-        Source::Plant => Some(Reported::read(&plant.signal_map, &scene, open(&arguments.trace)?)),
-        _ => None,
+    engine.show(plant, Arc::new(Scene::of(plant)));
+    let machine = match Seen::by_default(header.source) {
+        Seen::Recorded => Some(Reported::read(&plant.signal_map, open(&arguments.trace)?)),
+        Seen::Model => None,
     };
     let machine = machine.transpose().map_err(|error| Failure::of(&error))?;
-    engine.show(plant, scene);
     let mut pictures = 0;
     let mut refused = None;
     let replayed = open(&arguments.trace)?;

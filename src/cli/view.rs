@@ -13,12 +13,12 @@ use super::run::say;
 use super::signals::Interruption;
 use super::{Answer, Failure, words};
 use crate::plant::Plant;
-use crate::replay::Survey;
+use crate::replay::{Seen, Survey};
 use crate::run::{self, Handle, Options, Stop, Summary, model};
 use crate::scene::Scene;
 use crate::trace::{Reader, TraceError};
 use crate::view::live::Live;
-use crate::view::{self, Baked, Listening, Playback, ReportFiles, Seen, Stage, Told};
+use crate::view::{self, Baked, Listening, Playback, ReportFiles, Stage, Told};
 
 /// Plays a recorded trace in the browser.
 ///

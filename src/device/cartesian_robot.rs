@@ -7,7 +7,7 @@ use crate::device::table::{
     ACCELERATION, ANGLE, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, FASTEST, LEAST, LENGTH, LONGEST_M, STEEPEST, VELOCITY,
     indicator, measure, number, switch, target,
 };
-use crate::device::{Device, Role, Surroundings, Tool};
+use crate::device::{Device, Role, Surroundings, Tool, joints_where_reported};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
@@ -168,8 +168,7 @@ impl Device for CartesianRobot {
     }
 
     fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
-        let mut positions = reports[POSITIONS..].iter();
-        self.joints(&mut |name, own| visit(name, positions.next().copied().flatten().unwrap_or(own)));
+        joints_where_reported(self, &reports[POSITIONS..], visit);
     }
 
     fn role(&self) -> Role<'_> {

@@ -1,6 +1,5 @@
 //! `kinetwin.EncoderMotor`: an inverter motor with an incremental encoder.
 
-use crate::device::Device;
 use crate::device::conveyor::drive_settings;
 use crate::device::driven::Driven;
 use crate::device::law::encoder::Encoder;
@@ -10,6 +9,7 @@ use crate::device::table::{
     ANGULAR_ACCELERATION, ANGULAR_VELOCITY, LEAST, LONGEST_S, STEEPEST, TIME, counter, indicator, integer, measure,
     number, option, switch, target,
 };
+use crate::device::{Device, joints_where_reported};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
@@ -130,8 +130,8 @@ impl Device for EncoderMotor {
     }
 
     fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
-        let shaft = |own| reports[ENCODER].map_or(own, |count| self.encoder.angle_near(count, own));
-        self.joints(&mut |name, own| visit(name, shaft(own)));
+        let angle = reports[ENCODER].map(|count| self.encoder.angle_near(count, self.drive.load().position));
+        joints_where_reported(self, &[angle], visit);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::device::table::{
     ANGULAR_ACCELERATION, ANGULAR_VELOCITY, LEAST, LENGTH, LONGEST_M, LONGEST_S, ONE, STEEPEST, TIME, VELOCITY,
     counter, indicator, integer, measure, number, option, switch, target,
 };
-use crate::device::{Belt, BuildError, Device, Role, Surface, Surroundings};
+use crate::device::{Belt, BuildError, Device, Role, Surface, Surroundings, joints_where_reported};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 
@@ -179,8 +179,8 @@ impl Device for InverterConveyor {
     }
 
     fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
-        let shaft = |own| reports[ENCODER].map_or(own, |count| self.encoder.angle_near(count, own));
-        self.joints(&mut |name, own| visit(name, shaft(own)));
+        let angle = reports[ENCODER].map(|count| self.encoder.angle_near(count, self.drive.load().position));
+        joints_where_reported(self, &[angle], visit);
     }
 
     fn role(&self) -> Role<'_> {

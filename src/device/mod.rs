@@ -193,6 +193,12 @@ pub trait Device: Send {
     }
 }
 
+/// Gives the joints of `device` to `visit` where `reports`, one for each of them in their order, put them.
+fn joints_where_reported(device: &impl Device, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
+    let mut reports = reports.iter();
+    device.joints(&mut |name, own| visit(name, reports.next().copied().flatten().unwrap_or(own)));
+}
+
 impl Clone for Box<dyn Device> {
     fn clone(&self) -> Self {
         self.boxed()

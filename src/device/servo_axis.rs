@@ -9,7 +9,7 @@ use crate::device::servo_path::{self, Exertion, Nominal};
 use crate::device::table::{
     EFFORT, LENGTH, LONGEST_M, LONGEST_S, SPEED, TIME, TRAVEL, choice, measure, number, switch, target,
 };
-use crate::device::{BuildError, Device, Surroundings, misfit};
+use crate::device::{BuildError, Device, Surroundings, joints_where_reported, misfit};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
 use crate::value::Quantity;
@@ -514,7 +514,7 @@ impl Device for ServoAxis {
     }
 
     fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
-        self.joints(&mut |name, own| visit(name, reports[POSITION].unwrap_or(own)));
+        joints_where_reported(self, &[reports[POSITION]; 2], visit);
     }
 }
 

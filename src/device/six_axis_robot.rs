@@ -14,7 +14,7 @@ use crate::device::table::{
     ANGLE, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, FASTEST, LEAST, LENGTH, LONGEST_M, STEEPEST, code, indicator,
     measure, number, numbers, switch, target,
 };
-use crate::device::{BuildError, Device, Role, Surroundings, Tool, misfit, triple};
+use crate::device::{BuildError, Device, Role, Surroundings, Tool, joints_where_reported, misfit, triple};
 use crate::kinematics::{Chain, DPose3, DQuat, DVec3, DenavitHartenberg, Upright};
 use crate::plant::Parameters;
 use crate::prototype::kind::KindDescriptor;
@@ -263,8 +263,7 @@ impl Device for SixAxisRobot {
     }
 
     fn reported_joints(&self, reports: &[Option<f64>], visit: &mut dyn FnMut(&'static str, f64)) {
-        let mut angles = reports[ANGLES..].iter();
-        self.joints(&mut |name, own| visit(name, angles.next().copied().flatten().unwrap_or(own)));
+        joints_where_reported(self, &reports[ANGLES..], visit);
     }
 
     fn role(&self) -> Role<'_> {

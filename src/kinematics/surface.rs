@@ -177,16 +177,8 @@ impl Surface {
         self.pieces.iter().filter(|(bounds, _)| over(bounds)).map(|(_, piece)| footprint.clipped(piece).area()).sum()
     }
 
-    /// Whether every corner of `block`'s bottom face is over it.
-    pub fn holds_corners_of(&self, block: &Block) -> bool {
-        let (half, length) = (self.width() / 2.0, self.length());
-        block.footprint().corners().iter().all(|&corner| {
-            let Along { station, offset } = self.locate(corner);
-            (0.0..=length).contains(&station) && offset.abs() <= half
-        })
-    }
-
-    /// How far any point of `block`, all of whose bottom face is over it, may move at least until a corner of it is not, m.
+    /// How far any point of `block` may move at least until a corner of its bottom face is no longer over it, m; below 0 where
+    /// one is not over it now.
     pub fn margin_of(&self, block: &Block) -> f64 {
         let (half, length) = (self.width() / 2.0, self.length());
         let margin = |&corner: &DVec2| {
@@ -272,7 +264,7 @@ mod tests {
     #[test]
     fn corners_within_and_without() {
         let held =
-            |x| surface(STRAIGHT).holds_corners_of(&Block::new(DVec3::splat(0.4), Upright::new(x, 2.0, 0.75, 0.0)));
+            |x| surface(STRAIGHT).margin_of(&Block::new(DVec3::splat(0.4), Upright::new(x, 2.0, 0.75, 0.0))) >= 0.0;
         assert!(held(1.2) && held(2.8) && !held(1.19) && !held(2.81));
     }
 
@@ -289,7 +281,11 @@ mod tests {
             let place: DVec2 = surface.at(Along { station: surface.length() * along, offset: across }).0;
             let block = Block::new(DVec3::new(0.2, 0.1, 0.2), Upright { place: place.extend(0.75), yaw });
             let margin = surface.margin_of(&block);
-            prop_assert_eq!(margin >= 0.0, surface.holds_corners_of(&block), "{}", margin);
+            let is_over = |block: &Block| block.footprint().corners().iter().all(|&corner| {
+                let Along { station, offset } = surface.locate(corner);
+                (0.0..=surface.length()).contains(&station) && offset.abs() <= surface.width() / 2.0
+            });
+            prop_assert_eq!(margin >= 0.0, is_over(&block), "{}", margin);
             if margin > 0.0 {
                 // The margin is spent on a shift and on a turn.
                 let left = margin * share * 0.999;
@@ -297,7 +293,7 @@ mod tests {
                 let turn = left * turned / block.radius();
                 let mut moved = block;
                 moved.move_to(Upright { place: (place + shift).extend(0.75), yaw: yaw + turn });
-                prop_assert!(surface.holds_corners_of(&moved), "margin {}", margin);
+                prop_assert!(is_over(&moved), "margin {}", margin);
             }
         }
 

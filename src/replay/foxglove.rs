@@ -72,7 +72,7 @@ impl<'a, W: Write> Pictures<'a, W> {
             return Ok(());
         }
         let parts = match &self.machine {
-            Some(machine) => engine.show_reported(|register| machine.at(register, now)),
+            Some(machine) => machine.show(engine),
             None => engine.parts().collect(),
         };
         let Some(poses) = engine.poses() else { return Ok(()) };

@@ -32,7 +32,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 pub use report::{EdgeReport, LevelReport, Report};
-pub use reported::Reported;
+pub use reported::{Reported, Seen};
 pub use survey::Survey;
 
 use crate::bank::{self, Full};

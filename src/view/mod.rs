@@ -31,7 +31,7 @@ use std::thread::JoinHandle;
 use tokio::sync::{Semaphore, oneshot, watch};
 
 pub use api::ROUTES;
-pub use playback::{BakeError, Baked, Movie, Playback, Seen};
+pub use playback::{BakeError, Baked, Movie, Playback};
 pub use report::ReportFiles;
 
 use frame::Frame;

@@ -21,11 +21,11 @@ use tokio::sync::watch;
 use super::frame::{Frame, Ghost};
 use crate::engine::Engine;
 use crate::plant::Plant;
-use crate::replay::{self, ReplayError, Reported, Survey, Tolerances};
+use crate::replay::{self, ReplayError, Reported, Seen, Survey, Tolerances};
 use crate::scene::Scene;
 use crate::signal_map::RegisterId;
 use crate::time::Instant;
-use crate::trace::{Reader, Source, TraceError};
+use crate::trace::{Reader, TraceError};
 
 pub use movie::Movie;
 
@@ -38,25 +38,6 @@ pub enum BakeError {
     Replay { file: String, source: ReplayError },
     #[error("{file}: the trace ends at its start: there is nothing to play")]
     Empty { file: String },
-}
-
-/// Who is seen in a trace that is played.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seen {
-    /// Whoever recorded it, as far as its reports go.
-    Recorded,
-    /// The model under the recorded commands.
-    Model,
-}
-
-impl Seen {
-    /// A machine as it reported itself. What a simulation recorded, the model does again, and more of it than it reported.
-    pub fn by_default(source: Source) -> Seen {
-        match source {
-            Source::Plant => Seen::Recorded,
-            _ => Seen::Model,
-        }
-    }
 }
 
 /// A trace, ready to be played.
@@ -79,13 +60,12 @@ impl Baked {
         if survey.ends() <= Instant::ZERO {
             return Err(BakeError::Empty { file: name.to_owned() });
         }
-        let reader = open()?;
         let mut movie = match seen {
-            Seen::Recorded => Movie::of_machine(Reported::read(&plant.signal_map, scene, open()?)?),
+            Seen::Recorded => Movie::of_machine(Reported::read(&plant.signal_map, open()?)?, &plant.signal_map, scene),
             Seen::Model => Movie::default(),
         };
         let watch = |engine: &mut Engine| movie.take(engine);
-        replay::watched(engine, &plant.signal_map, &survey, reader, &Tolerances::default(), watch)
+        replay::watched(engine, &plant.signal_map, &survey, open()?, &Tolerances::default(), watch)
             .map_err(|source| BakeError::Replay { file: name.to_owned(), source })?;
         Ok(Baked { name: name.to_owned(), movie })
     }

@@ -3,6 +3,9 @@
 use crate::kinematics::{Block, Bounds, Motion, Upright};
 use crate::plant::PartKind;
 
+/// More than the sums of all ways are rounded by, m: what may be passed over is so much less than what was found.
+pub(super) const ROUNDING_M: f64 = 1e-9;
+
 /// A part's place in the store. Places are taken again when a part has gone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(in crate::engine) struct Slot(u32);
@@ -189,7 +192,7 @@ impl Parts {
 
     /// What bears a part need not be looked at until one of its points has moved so far, m.
     pub fn secure(&mut self, slot: Slot, way: f64) {
-        self.get_mut(slot).secure = way;
+        self.get_mut(slot).secure = way - ROUNDING_M;
     }
 
     /// Every part has to be looked at.

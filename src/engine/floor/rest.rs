@@ -62,8 +62,8 @@ impl Floor {
         }
         let block = &self.parts.get(slot).block;
         let surface = &self.belts[belt].surface;
-        if surface.holds_corners_of(block) {
-            let margin = surface.margin_of(block);
+        let margin = surface.margin_of(block);
+        if margin >= 0.0 {
             self.parts.secure(slot, margin);
             return;
         }

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::Floor;
-use super::part::{Slot, Support};
+use super::part::{ROUNDING_M, Slot, Support};
 use crate::device::Surroundings;
 use crate::kinematics::Beam;
 
@@ -73,7 +73,7 @@ impl Floor {
                 return true;
             }
         }
-        clear.until.set((travelled + gap.max(0.0), arrivals));
+        clear.until.set((travelled + gap - ROUNDING_M, arrivals));
         false
     }
 }

@@ -70,12 +70,11 @@ pub fn anew(free: usize) -> Effort {
     Effort { starts: 1, budget: (STEPS * (free as u32 + 1)).max(60) }
 }
 
-/// Climbs from the model with its nominal parameters at `at`; where it is not `evident` that anything is wrong, nothing is looked
-/// for. `is_asked` says which effects are.
+/// Climbs from the model with its nominal parameters at `at`; where it is not evident that anything is wrong, nothing is looked for.
+/// `is_asked` says which effects are.
 pub fn climb(
     bench: &Bench<'_>,
     at: &[f64],
-    evident: bool,
     is_asked: &(dyn Fn(&str) -> bool + Sync),
     tell: &Tell<'_>,
 ) -> Option<Ladder> {
@@ -94,7 +93,7 @@ pub fn climb(
         tried: 0,
         too_few_blocks: None,
     };
-    if !evident {
+    if evidence(bench.subject, &prediction) <= THRESHOLD {
         return Some(ladder);
     }
     ladder.subject = bench.subject.tolerant(&prediction);
@@ -125,13 +124,14 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
         return false;
     }
-    let excess = |bench: &Bench<'_>, trial: &Trial| (trial.cost - floor_of(bench, trial)).max(above(bench, trial));
-    if excess(bench, &plain) < least_gain(1, 1) * plain.inflation() {
+    let Some(standing) = Standing::of_trial(bench, &plain) else { return false };
+    if standing.excess(plain.cost) < least_gain(1, 1) * plain.inflation() {
         return false;
     }
     let subject = ladder.subject.clone();
     let weighed = bench.with(&subject);
-    let excess = excess(&weighed, &below);
+    let Some(standing) = Standing::of_trial(&weighed, &below) else { return false };
+    let excess = standing.excess(below.cost);
     let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
     let Some((next, subject)) = choose(bench, &weighed, &below, &rivals) else { return false };
@@ -151,23 +151,33 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     is_worth_it
 }
 
-/// What a trial's deviance would be where nothing is wrong.
-fn floor_of(bench: &Bench<'_>, trial: &Trial) -> f64 {
-    let prediction = bench.predict(&trial.set, &trial.at);
-    prediction.map_or(0.0, |prediction| floor(&bench.subject.score(&prediction)).0)
+/// How a trial's deviance stands to where nothing is wrong.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing {
+    /// What it would be there, and the variance of that.
+    pub floor: (f64, f64),
+    /// The same of the signal that costs the most above it, and by how much it does: late edges, beside thousands of samples of a
+    /// level whose noise is known to a few per cent.
+    pub worst: (f64, f64),
+    pub above: f64,
 }
 
-/// What the signal costs above its floor that costs the most so: late edges, beside thousands of samples of a level whose noise is
-/// known to a few per cent.
-fn above(bench: &Bench<'_>, trial: &Trial) -> f64 {
-    let prediction = bench.predict(&trial.set, &trial.at);
-    prediction.map_or(0.0, |prediction| most_above(&bench.subject.score(&prediction)).0)
-}
+impl Standing {
+    /// As a device was scored.
+    pub fn of(score: &Score) -> Standing {
+        let each = score.signals.iter().map(|signal| (signal.cost - signal.floor_cost.0, signal.floor_cost));
+        let (above, worst) = each.fold((0.0, (0.0, 0.0)), |most, next| if next.0 > most.0 { next } else { most });
+        Standing { floor: floor(score), worst, above }
+    }
 
-/// What the signal costs above its floor that costs the most so, and that floor with its variance.
-pub fn most_above(score: &Score) -> (f64, (f64, f64)) {
-    let each = score.signals.iter().map(|signal| (signal.cost - signal.floor_cost.0, signal.floor_cost));
-    each.fold((0.0, (0.0, 0.0)), |most, next| if next.0 > most.0 { next } else { most })
+    fn of_trial(bench: &Bench<'_>, trial: &Trial) -> Option<Standing> {
+        Some(Standing::of(&bench.subject.score(&bench.predict(&trial.set, &trial.at)?)))
+    }
+
+    /// What `cost` is above the floor, in all or by one signal alone.
+    fn excess(&self, cost: f64) -> f64 {
+        (cost - self.floor.0).max(self.above)
+    }
 }
 
 /// Below this share of the excess an effect would not be the answer, however sure.
@@ -182,7 +192,8 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
     let (_, blocks) = gains(&below.blocks, &next.blocks);
     let further = next.parameters() - below.parameters();
     let gains_enough = below.cost - next.cost >= least_gain(further, ladder.tried) * next.inflation();
-    let explains = (below.cost - next.cost) / (below.cost - floor_of(bench, below)).max(1.0);
+    let (floor, _) = Standing::of_trial(bench, below)?.floor;
+    let explains = (below.cost - next.cost) / (below.cost - floor).max(1.0);
     (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
 }
 
@@ -283,24 +294,22 @@ fn is_a_share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -
     /// How many deviations of the floor an excess must be for the draws of it to say what a share of it is.
     const PLAIN: f64 = 5.0;
     let Some(bare) = bench.trial(&[], ladder.bare.at.clone()) else { return false };
-    let Some(prediction) = bench.predict(&[], &bare.at) else { return false };
-    let (floor, variance) = floor(&bench.subject.score(&prediction));
-    let most = above(bench, &bare);
+    let Some(Standing { floor: (floor, variance), above, .. }) = Standing::of_trial(bench, &bare) else { return false };
     let is_plain = bare.cost - floor > PLAIN * variance.sqrt();
     let draws = Draws::new(below.blocks.len(), DRAWS, 1);
     let kept_back = |trial: &Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
     let (before, after) = (kept_back(below), kept_back(next));
     let surely = |whole: &[f64]| {
         let shares = draws.each(&[whole, &before, &after], |sums| {
-            let excess = if is_plain { sums[0] - floor } else { most };
+            let excess = if is_plain { sums[0] - floor } else { above };
             (sums[1] - sums[2]) / excess.max(1.0)
         });
         quantile(&shares, 0.025)
     };
-    let is_confirmed = !is_plain && most > 0.0 && {
+    let is_confirmed = !is_plain && above > 0.0 && {
         let (sum, blocks) = gains(&before, &after);
         let further = next.parameters() - below.parameters();
-        sum > EXPLAINED * most && blocks > FEWEST_BLOCKS * further as f64
+        sum > EXPLAINED * above && blocks > FEWEST_BLOCKS * further as f64
     };
     is_confirmed
         || surely(&bare.blocks) >= LEAST_SHARE

@@ -22,6 +22,6 @@ pub use bench::{BLOCK_S, Bench, Trial};
 pub use candidate::{Candidate, Free};
 pub use class::{Alternative, Answer, answers, plainness};
 pub use intervals::{Bounds, intervals};
-pub use ladder::{Ladder, Progress, Tell, anew, climb, floor, most_above};
+pub use ladder::{Ladder, Progress, Standing, Tell, anew, climb, floor};
 pub use nuisance::{Nuisance, nuisances};
 pub use remainder::{Remainder, misfit, remainder};

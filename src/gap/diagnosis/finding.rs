@@ -2,8 +2,8 @@
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Trial, anew, answers, climb, intervals,
-    misfit, most_above, plainness, remainder,
+    Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers, climb,
+    intervals, misfit, plainness, remainder,
 };
 use crate::gap::{Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
@@ -69,13 +69,12 @@ pub(super) fn find(
     options: &Options<'_>,
 ) -> Option<Finding> {
     let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);
-    let evident = evidence(subject, &bare.prediction) > THRESHOLD;
-    let mut ladder = climb(&bench, &bare.at, evident, options.is_asked, options.tell)?;
+    let mut ladder = climb(&bench, &bare.at, options.is_asked, options.tell)?;
     if let Some(at) = fitted_better(&bench, &ladder) {
-        let evident = evidence(subject, &bench.predict(&[], &at)?) > THRESHOLD;
-        ladder = climb(&bench, &at, evident, options.is_asked, options.tell)?;
+        ladder = climb(&bench, &at, options.is_asked, options.tell)?;
     }
-    let bare = subject.score(&bench.predict(&[], &ladder.bare.at)?);
+    let prediction = bench.predict(&[], &ladder.bare.at)?;
+    let bare = subject.score(&prediction);
     let mut finding = Finding {
         subject: place,
         conclusion: Conclusion::NoGap,
@@ -86,7 +85,7 @@ pub(super) fn find(
         replays: 0,
         ladder,
     };
-    let beyond_chance = evidence(subject, &bench.predict(&[], &finding.ladder.bare.at)?);
+    let beyond_chance = evidence(subject, &prediction);
     let has_gap =
         beyond_chance > FAR_BEYOND * THRESHOLD || (beyond_chance > THRESHOLD && is_significant(&finding.ladder, &bare));
     if finding.ladder.best.set.is_empty() {
@@ -137,8 +136,8 @@ fn fitted_better(bench: &Bench<'_>, ladder: &Ladder) -> Option<Vec<f64>> {
 fn is_significant(ladder: &Ladder, bare: &Score) -> bool {
     let least =
         |(floor, variance): (f64, f64)| 18.0 * ladder.bare.inflation().min(10.0) + 5.0 * variance.sqrt() + 0.1 * floor;
-    let (most, its_floor) = most_above(bare);
-    ladder.excess() > least(ladder.floor) || most > least(its_floor)
+    let Standing { worst, above, .. } = Standing::of(bare);
+    ladder.excess() > least(ladder.floor) || above > least(worst)
 }
 
 /// Of the effects that give the same motion the plainest is named; a nominal parameter that gives it too is another name for it.

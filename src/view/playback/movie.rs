@@ -4,7 +4,8 @@ use crate::engine::{Engine, Held, PartCounts, PartState};
 use crate::kinematics::DPose3;
 use crate::replay::Reported;
 use crate::run::control::Picture;
-use crate::signal_map::RegisterId;
+use crate::scene::Scene;
+use crate::signal_map::{RegisterId, SignalMap};
 use crate::time::Instant;
 use crate::value::Value;
 
@@ -31,6 +32,8 @@ pub struct Movie {
     busy: Vec<(String, f64)>,
     /// What stands in the place of what the model did.
     reported: Option<Reported>,
+    /// Of each beam of the scene the register of its light barrier, where that is reported.
+    barriers: Vec<Option<RegisterId>>,
 }
 
 /// A picture.
@@ -64,8 +67,9 @@ struct Change {
 
 impl Movie {
     /// One in which the machine is seen that `reported` as it did, and the model where nothing was reported.
-    pub fn of_machine(reported: Reported) -> Movie {
-        Movie { reported: Some(reported), ..Movie::default() }
+    pub fn of_machine(reported: Reported, map: &SignalMap, scene: &Scene) -> Movie {
+        let barriers = scene.beams().iter().map(|beam| map.register(&beam.name)).collect();
+        Movie { reported: Some(reported), barriers, ..Movie::default() }
     }
 
     /// When it ends.
@@ -135,10 +139,11 @@ impl Movie {
                         register.clone_from(told);
                     }
                 }
-                for (index, beam) in beams.iter_mut().enumerate() {
-                    *beam = reported.is_cut(index, now).unwrap_or(*beam);
+                for (beam, register) in beams.iter_mut().zip(&self.barriers) {
+                    let told = register.and_then(|register| reported.at(register, now)?.to_f64());
+                    *beam = told.map_or(*beam, |number| number != 0.0);
                 }
-                engine.show_reported(|register| reported.at(register, now))
+                reported.show(engine)
             }
             None => engine.parts().collect(),
         };

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Baked, Seen};
+use super::Baked;
 use crate::device::KINDS;
 use crate::engine::Engine;
 use crate::kinematics::DVec3;
 use crate::plant::embedded::Embedded;
 use crate::plant::{Plant, load};
+use crate::replay::Seen;
 use crate::scene::{Poses, Scene};
 use crate::time::Instant;
 use crate::trace::Reader;
