@@ -11,7 +11,7 @@ import { StatisticsPanel } from "./panel/statistics";
 import { readMeshes } from "./scene/meshes";
 import { World } from "./scene/world";
 import { Store } from "./store";
-import { follow } from "./stream";
+import { type Frame, follow } from "./stream";
 import { Timeline } from "./timeline";
 import { Transport } from "./transport";
 
@@ -24,6 +24,12 @@ const themed = () => localStorage.getItem("theme") ?? (dark.matches ? "dark" : "
 document.documentElement.dataset["theme"] = themed();
 
 async function begin(): Promise<void> {
+  // The stream begins while the meshes are on their way; what it brings before there is a picture to put it in waits.
+  const early: Frame[] = [];
+  let take = (frame: Frame): void => void early.push(frame);
+  let link = (_connected: boolean): void => {};
+  let isConnected = false;
+  follow((frame) => take(frame), (connected) => link((isConnected = connected)));
   const [plant, meshes] = await Promise.all([ask<Plant>("GET", "/api/plant"), fetch("/api/meshes").then((answer) => answer.arrayBuffer())]);
   document.title = `${plant.trace ?? plant.model} – kinetwin`;
   const store = new Store(plant);
@@ -195,14 +201,14 @@ async function begin(): Promise<void> {
   });
 
   // What comes in.
-  follow(
-    (frame) => {
-      store.take(frame);
-      world.take(frame);
-      if (frame.begins) choose(null);
-    },
-    (connected) => (store.connected = connected),
-  );
+  link = (connected) => (store.connected = connected);
+  link(isConnected);
+  take = (frame) => {
+    store.take(frame);
+    world.take(frame);
+    if (frame.begins) choose(null);
+  };
+  early.splice(0).forEach(take);
   const refresh = async () => {
     try {
       store.state = await ask<State>("GET", "/api/state");

@@ -379,7 +379,8 @@ export class World {
 
   private turn(): void {
     this.orbit.update();
-    if (!this.stale) return;
+    // Before the plant stands there is nothing to see, and drawing its meshes costs all the same.
+    if (!this.stale || !this.settled) return;
     this.stale = false;
     if (this.chosen !== null) {
       const box = this.measure(this.chosen);
