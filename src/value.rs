@@ -279,28 +279,51 @@ impl Value {
     /// The value of type `element` nearest to `number`: rounded and saturated for integers, `!= 0` for BOOL, seconds
     /// for TIME. A text type gives the empty text. NaN gives 0 for integers.
     pub fn from_f64(element: ElementaryType, number: f64) -> Value {
-        let rounded = || number.round();
-        match element {
-            ElementaryType::Bool => Value::Bool(number != 0.0),
-            ElementaryType::Sint => Value::Sint(rounded() as i8),
-            ElementaryType::Int => Value::Int(rounded() as i16),
-            ElementaryType::Dint => Value::Dint(rounded() as i32),
-            ElementaryType::Lint => Value::Lint(rounded() as i64),
-            ElementaryType::Usint => Value::Usint(rounded() as u8),
-            ElementaryType::Uint => Value::Uint(rounded() as u16),
-            ElementaryType::Udint => Value::Udint(rounded() as u32),
-            ElementaryType::Ulint => Value::Ulint(rounded() as u64),
-            ElementaryType::Byte => Value::Byte(rounded() as u8),
-            ElementaryType::Word => Value::Word(rounded() as u16),
-            ElementaryType::Dword => Value::Dword(rounded() as u32),
-            ElementaryType::Lword => Value::Lword(rounded() as u64),
-            // Adding 0.0 turns -0.0 into 0.0: the two are equal, and must be one on the wire and in a hash.
-            ElementaryType::Real => Value::Real(number as f32 + 0.0),
-            ElementaryType::Lreal => Value::Lreal(number + 0.0),
-            ElementaryType::Time => Value::Time((number * 1e9).round() as i64),
-            ElementaryType::String => Value::String(Box::default()),
-            ElementaryType::Wstring => Value::Wstring(Box::default()),
+        let mut value = SignalType::scalar(element).initial();
+        value.set_f64(number);
+        value
+    }
+
+    /// Becomes the value of its own type that is nearest to `number`, as [`from_f64`](Self::from_f64) has it, and says whether
+    /// that is another. Texts and arrays stay as they are.
+    ///
+    /// In place: a value that is put together in one place and moved to another at once costs several times as much.
+    #[inline]
+    pub fn set_f64(&mut self, number: f64) -> bool {
+        fn put<T: PartialEq>(place: &mut T, new: T) -> bool {
+            let is_new = *place != new;
+            *place = new;
+            is_new
         }
+        let rounded = || number.round();
+        match self {
+            Value::Bool(v) => put(v, number != 0.0),
+            Value::Sint(v) => put(v, rounded() as i8),
+            Value::Int(v) => put(v, rounded() as i16),
+            Value::Dint(v) => put(v, rounded() as i32),
+            Value::Lint(v) => put(v, rounded() as i64),
+            Value::Usint(v) | Value::Byte(v) => put(v, rounded() as u8),
+            Value::Uint(v) | Value::Word(v) => put(v, rounded() as u16),
+            Value::Udint(v) | Value::Dword(v) => put(v, rounded() as u32),
+            Value::Ulint(v) | Value::Lword(v) => put(v, rounded() as u64),
+            // Adding 0.0 turns -0.0 into 0.0: the two are equal, and must be one on the wire and in a hash.
+            Value::Real(v) => put(v, number as f32 + 0.0),
+            Value::Lreal(v) => put(v, number + 0.0),
+            Value::Time(v) => put(v, (number * 1e9).round() as i64),
+            Value::String(_) | Value::Wstring(_) | Value::Array(_) => false,
+        }
+    }
+}
+
+/// Appends `item` to a list that has room for it: the caller has reserved that, and without, `item` is lost.
+///
+/// `Vec::push` puts an item together on the stack, in case it has to make room first, and then moves it; for a [`Value`],
+/// written a byte here and a byte there and read back whole, that takes several times as long as all the rest.
+#[inline(always)]
+pub fn push_reserved<T>(list: &mut Vec<T>, item: T) {
+    debug_assert!(list.len() < list.capacity(), "no room was reserved");
+    if list.len() < list.capacity() {
+        list.push(item);
     }
 }
 
@@ -463,6 +486,25 @@ mod tests {
             assert_eq!(Value::from_f64(element, f64::NEG_INFINITY).to_f64(), Some(low as f64), "{element}");
             assert_eq!(Value::from_f64(element, 41.6).to_f64(), Some(42.0), "{element}");
         }
+    }
+
+    #[test]
+    fn a_value_becomes_another_of_its_type_in_place() {
+        for element in ElementaryType::ALL {
+            let mut value = SignalType::scalar(element).initial();
+            let is_number = value.to_f64().is_some();
+            for number in [1.0, 1.0, 0.0, 0.4, 7.0] {
+                let before = value.clone();
+                let is_new = value.set_f64(number);
+                assert_eq!(value, Value::from_f64(element, number), "{element} {number}");
+                assert_eq!(is_new, value != before, "{element} {number}");
+                assert_eq!(value.signal_type(), SignalType::scalar(element));
+            }
+            assert_eq!(value.to_f64().is_some_and(|number| number != 0.0), is_number, "{element}");
+        }
+        let mut list = SignalType::array(ElementaryType::Int, 2).initial();
+        assert!(!list.set_f64(3.0));
+        assert_eq!(list, SignalType::array(ElementaryType::Int, 2).initial());
     }
 
     #[test]

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use crate::signal_map::{Kind, RateClass, RegisterId, SignalMap};
 use crate::time::Instant;
-use crate::value::Value;
+use crate::value::{Value, push_reserved};
 
 use super::ring::{Consumer, Producer, ring};
 use super::triple::{Reader, Writer, triple};
-use super::words::{Layout, Place, decode, encode, total_words};
+use super::words::{Layout, Place, append, decode, decode_to, encode};
 
 /// How many entries the queue of messages and the log of edges hold each. An entry is one value of one signal.
 pub const CAPACITY: usize = 65_536;
@@ -29,6 +29,9 @@ const GROUP_HEADER: usize = 3;
 /// it had no room for included.
 const CYCLE_HEADER: usize = 3;
 
+/// So many words between two that changed are copied with them: a cache line.
+const NEAR: usize = 8;
+
 /// The bank for the signals of `map`: the simulation thread's side and the IO thread's.
 pub fn new(map: &SignalMap) -> (SimulationSide, IoSide) {
     with_capacity(map, CAPACITY, MOST_WORDS)
@@ -39,13 +42,13 @@ pub(crate) fn with_capacity(map: &SignalMap, capacity: usize, most_words: usize)
     let layout = Arc::new(Layout::new(map));
     // Room for `capacity` records of one entry each, as long as the longest of them may be.
     let room = |places: &mut dyn Iterator<Item = &Place>, header: usize| {
-        let longest = places.map(|place| place.words + 1).max().unwrap_or(1);
+        let longest = places.map(|place| place.words() + 1).max().unwrap_or(1);
         (capacity * (header + longest)).min(most_words)
     };
-    let (staged, queue) = ring(room(&mut layout.commands.iter(), MESSAGE_HEADER), capacity);
+    let (staged, queue) = ring(room(&mut layout.commands(), MESSAGE_HEADER), capacity);
     let edges = layout.reports.iter().filter(|place| place.kind == Kind::Edge);
     let (log, edges) = ring(room(&mut edges.into_iter(), GROUP_HEADER), capacity);
-    let words = total_words(&layout.reports);
+    let words = layout.report_words();
     let (out, cycle) = triple(CYCLE_HEADER + words);
     let simulation = SimulationSide {
         queue,
@@ -158,25 +161,26 @@ impl SimulationSide {
         let mut at = MESSAGE_HEADER;
         (0..self.queue.word(0)).any(|_| {
             let place = command(&self.layout, RegisterId(self.queue.word(at) as u32));
-            at += 1 + place.words;
+            at += 1 + place.words();
             self.marks[place.id.index()].take == self.takes
         })
     }
 
     fn take_message(&mut self, inputs: &mut Vec<(RegisterId, Value)>) {
         let entries = self.queue.word(0);
+        inputs.reserve(entries as usize);
         let mut at = MESSAGE_HEADER;
         for _ in 0..entries {
             let place = command(&self.layout, RegisterId(self.queue.word(at) as u32));
-            let value = decode(place.ty, |word| self.queue.word(at + 1 + word));
-            at += 1 + place.words;
+            let word = |word| self.queue.word(at + 1 + word);
             let mark = &mut self.marks[place.id.index()];
             if mark.take == self.takes {
-                inputs[mark.place].1 = value;
+                inputs[mark.place].1 = decode(place.ty, word);
             } else {
                 *mark = Mark { take: self.takes, place: inputs.len() };
-                inputs.push((place.id, value));
+                decode_to(place.ty, word, |value| push_reserved(inputs, (place.id, value)));
             }
+            at += 1 + place.words();
         }
         self.queue.release(at, entries);
     }
@@ -188,7 +192,7 @@ impl SimulationSide {
     /// IO thread then.
     pub fn publish(&mut self, now: Instant, registers: &[Value]) -> bool {
         let layout = Arc::clone(&self.layout);
-        self.publish_places(now, registers, &mut layout.reports.iter())
+        self.publish_places(now, registers, layout.reports.iter())
     }
 
     /// As [`publish`](Self::publish), at the cost of what changed: none but the registers in `changed`, which stand there in
@@ -198,10 +202,15 @@ impl SimulationSide {
             return self.publish(now, registers);
         }
         let layout = Arc::clone(&self.layout);
-        self.publish_places(now, registers, &mut changed.iter().filter_map(|id| layout.report(*id)))
+        self.publish_places(now, registers, changed.iter().filter_map(|id| layout.report(*id)))
     }
 
-    fn publish_places(&mut self, now: Instant, registers: &[Value], places: &mut dyn Iterator<Item = &Place>) -> bool {
+    fn publish_places<'p>(
+        &mut self,
+        now: Instant,
+        registers: &[Value],
+        places: impl Iterator<Item = &'p Place>,
+    ) -> bool {
         let edges = self.update(registers, places);
         let news = edges > 0 || !self.started;
         self.started = true;
@@ -220,7 +229,7 @@ impl SimulationSide {
 
     /// Brings the cycle up to date as far as `places` go, notes which of its words changed, puts what changed about edge
     /// signals into the group, and says how many did.
-    fn update(&mut self, registers: &[Value], places: &mut dyn Iterator<Item = &Place>) -> u64 {
+    fn update<'p>(&mut self, registers: &[Value], places: impl Iterator<Item = &'p Place>) -> u64 {
         assert_eq!(registers.len(), self.layout.registers(), "one value for every register of the signals map");
         self.group.clear();
         self.group.resize(GROUP_HEADER, 0);
@@ -228,19 +237,22 @@ impl SimulationSide {
         self.changed.push(0..CYCLE_HEADER);
         let mut edges = 0;
         for place in places {
-            let run = CYCLE_HEADER + place.start..CYCLE_HEADER + place.start + place.words;
+            let run = CYCLE_HEADER + place.start()..CYCLE_HEADER + place.start() + place.words();
             let words = &mut self.cycle[run.clone()];
             if !encode(place.ty, &registers[place.id.index()], words) {
                 continue;
             }
             if self.started && place.kind == Kind::Edge {
                 self.group.push(u64::from(place.id.0));
-                self.group.extend_from_slice(words);
+                match words {
+                    [word] => self.group.push(*word),
+                    words => self.group.extend_from_slice(words),
+                }
                 edges += 1;
             }
             match self.changed.last_mut() {
-                // What lies side by side is one run.
-                Some(last) if last.end == run.start => last.end = run.end,
+                // What lies near one another is one run: to copy a few words more is cheaper than to begin anew.
+                Some(last) if last.end <= run.start && run.start - last.end <= NEAR => last.end = run.end,
                 _ => self.changed.push(run),
             }
         }
@@ -281,9 +293,7 @@ impl IoSide {
         for (id, value) in values {
             let place = command(&self.layout, *id);
             self.record.push(u64::from(id.0));
-            let start = self.record.len();
-            self.record.resize(start + place.words, 0);
-            encode(place.ty, value, &mut self.record[start..]);
+            append(place, value, &mut self.record);
         }
         if !self.staged.push(&self.record, values.len() as u64) {
             return Err(Full { entries: values.len() });
@@ -327,8 +337,8 @@ impl IoSide {
         let mut word = GROUP_HEADER;
         for _ in 0..entries {
             let place = self.logged(word);
-            values.push((place.id, decode(place.ty, |i| self.log.word(word + 1 + i))));
-            word += 1 + place.words;
+            decode_to(place.ty, |i| self.log.word(word + 1 + i), |value| push_reserved(&mut values, (place.id, value)));
+            word += 1 + place.words();
         }
         self.log.release(word, entries);
         self.groups = number;
@@ -349,7 +359,7 @@ impl IoSide {
         self.entries = self.cycle.word(2);
         while self.log.available() > 0 && self.log.word(0) <= self.groups {
             let entries = self.log.word(2);
-            let words = (0..entries).fold(GROUP_HEADER, |word, _| word + 1 + self.logged(word).words);
+            let words = (0..entries).fold(GROUP_HEADER, |word, _| word + 1 + self.logged(word).words());
             self.log.release(words, entries);
         }
     }
@@ -360,19 +370,16 @@ impl IoSide {
     /// The cycle in hand is that of the last [`changed`](Self::changed): call it first, and send its groups first.
     pub fn levels(&mut self, rate: RateClass, out: &mut Vec<(RegisterId, Value)>) -> Option<Instant> {
         let at = self.snapshot()?.at();
-        for place in &self.layout.reports {
-            if place.kind != Kind::Level || place.rate != rate {
-                continue;
-            }
-            let sent = &mut self.sent[place.start..place.start + place.words];
+        for place in self.layout.levels(rate) {
+            let sent = &mut self.sent[place.start()..place.start() + place.words()];
             let mut changed = false;
             for (i, word) in sent.iter_mut().enumerate() {
-                let now = self.cycle.word(CYCLE_HEADER + place.start + i);
+                let now = self.cycle.word(CYCLE_HEADER + place.start() + i);
                 changed |= std::mem::replace(word, now) != now;
             }
             if changed {
-                let sent = &self.sent[place.start..];
-                out.push((place.id, decode(place.ty, |word| sent[word])));
+                out.reserve(1);
+                decode_to(place.ty, |word| sent[word], |value| push_reserved(out, (place.id, value)));
             }
         }
         Some(at)
@@ -425,6 +432,6 @@ impl Snapshot<'_> {
     }
 
     fn read(&self, place: &Place) -> Value {
-        decode(place.ty, |word| self.side.cycle.word(CYCLE_HEADER + place.start + word))
+        decode(place.ty, |word| self.side.cycle.word(CYCLE_HEADER + place.start() + word))
     }
 }

@@ -33,7 +33,7 @@ const TURN: u64 = 250;
 
 /// Two rows, or four where real-time scheduling is permitted; `turns` turns each.
 pub fn measure(turns: usize, mut progress: impl FnMut(&str)) -> Result<Vec<Measured>, BenchError> {
-    let permitted = thread(|| prefer(Urgency::Simulation).is_ok())?;
+    let permitted = is_permitted()?;
     let pairs = [(SHARED, false), (REALTIME, true)];
     let mut rows = Vec::new();
     for (pair, realtime) in pairs.into_iter().filter(|(_, realtime)| permitted || !realtime) {
@@ -42,6 +42,11 @@ pub fn measure(turns: usize, mut progress: impl FnMut(&str)) -> Result<Vec<Measu
         rows.extend([Measured::of(pair.bare, 0, &bare), Measured::of(pair.looped, 0, &looped)]);
     }
     Ok(rows)
+}
+
+/// Whether the system permits real-time scheduling.
+pub fn is_permitted() -> io::Result<bool> {
+    thread(|| prefer(Urgency::Simulation).is_ok())
 }
 
 fn in_turns(turns: usize, realtime: bool) -> Result<[Histogram<u64>; 2], BenchError> {
@@ -59,7 +64,8 @@ fn in_turns(turns: usize, realtime: bool) -> Result<[Histogram<u64>; 2], BenchEr
     Ok(sums)
 }
 
-fn thread<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> io::Result<T> {
+/// What `work` gives on a thread of its own, which is scheduled as it asks.
+pub fn thread<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> io::Result<T> {
     std::thread::spawn(work).join().map_err(|_| io::Error::other("a thread that was measured died"))
 }
 

@@ -32,12 +32,14 @@ pub struct Running {
 }
 
 impl Running {
-    /// A run of `plant` in steps of 1 ms, of which the first `switched` blocks are set at each call.
-    pub fn start(plant: &Arc<Plant>, switched: usize) -> Result<Running, BenchError> {
+    /// A run of `plant` in steps of 1 ms, of which the first `switched` blocks are set at each call; in `realtime` where the
+    /// system permits it.
+    pub fn start(plant: &Arc<Plant>, switched: usize, realtime: bool) -> Result<Running, BenchError> {
         let listener = TcpListener::bind("127.0.0.1:0")?;
         let address = listener.local_addr()?;
         let options = Options {
             connect: Some(Connect::Server(Endpoint::new(address.ip().to_string(), address.port()))),
+            realtime,
             ..Options::new("models/r001")
         };
         let handle = run::start_plant(&options, Arc::clone(plant))?;

@@ -1,5 +1,7 @@
 //! Between registers and ports: which signal is which device's, and the units on the wire become SI units here.
 
+use smallvec::SmallVec;
+
 use crate::prototype::quantity::{from_si, to_si};
 use crate::signal_map::{Direction, RegisterId, SignalMap};
 use crate::value::{ElementaryType, Unit, Value};
@@ -16,7 +18,6 @@ pub(super) struct Target {
 pub(super) struct ReportPort {
     pub port: usize,
     pub register: RegisterId,
-    element: ElementaryType,
     unit: Unit,
     /// The bits of what was last reported; `None` where the register may hold something else.
     said: Option<u64>,
@@ -25,8 +26,7 @@ pub(super) struct ReportPort {
 impl ReportPort {
     /// The port `port` of a device, bound to `register`.
     pub fn new(port: usize, register: RegisterId, map: &SignalMap) -> ReportPort {
-        let signal = map.signal(register);
-        ReportPort { port, register, element: signal.ty.element, unit: signal.unit, said: None }
+        ReportPort { port, register, unit: map.signal(register).unit, said: None }
     }
 
     /// Whether `number` is not what was reported last. From now on it is.
@@ -45,11 +45,10 @@ impl ReportPort {
         Some(if self.unit.to_si == 1.0 { number } else { to_si(number, self.unit) })
     }
 
-    /// What the register holds when the device reports `number`, in SI units.
-    pub fn value(&self, number: f64) -> Value {
+    /// What the register is told when the device reports `number`, in SI units: the same in the signal's own.
+    pub fn on_the_wire(&self, number: f64) -> f64 {
         // Where no unit is changed, no digit is.
-        let number = if self.unit.to_si == 1.0 { number } else { from_si(number, self.unit) };
-        Value::from_f64(self.element, number)
+        if self.unit.to_si == 1.0 { number } else { from_si(number, self.unit) }
     }
 }
 
@@ -64,7 +63,8 @@ struct CommandRow {
     element: ElementaryType,
     unit: Unit,
     is_command: bool,
-    targets: Vec<Target>,
+    /// Nearly always one.
+    targets: SmallVec<[Target; 1]>,
 }
 
 impl CommandTable {
@@ -74,7 +74,7 @@ impl CommandTable {
             element: signal.ty.element,
             unit: signal.unit,
             is_command: signal.direction == Direction::Command,
-            targets: Vec::new(),
+            targets: SmallVec::new(),
         };
         CommandTable { rows: map.signals().iter().map(row).collect() }
     }
@@ -89,26 +89,38 @@ impl CommandTable {
         self.rows.get(register.index()).is_some_and(|row| row.is_command)
     }
 
-    /// What a value for `register` becomes whoever sets it; see [`CommandTable::convert`].
-    pub fn fit(&self, register: RegisterId, value: &Value) -> Option<(Value, f64)> {
+    /// What a value for `register` becomes where somebody holds it: of the register's type. `None` for what is no finite
+    /// number, and for a register that holds none.
+    pub fn fit(&self, register: RegisterId, value: &Value) -> Option<Value> {
         let row = self.rows.get(register.index())?;
-        let number = value.to_f64().filter(|number| number.is_finite())?;
-        let kept = Value::from_f64(row.element, number);
-        let number = kept.to_f64()?;
-        Some((kept, if row.unit.to_si == 1.0 { number } else { to_si(number, row.unit) }))
+        let kept = Value::from_f64(row.element, finite(value)?);
+        kept.to_f64().map(|_| kept)
     }
 
-    /// What a value for `register` becomes: as the register keeps it, and as the devices take it, in SI units. `None` for a
-    /// register that takes no commands, and for what is no finite number.
-    pub fn convert(&self, register: RegisterId, value: &Value) -> Option<(Value, f64)> {
+    /// The number of a value for `register` as it came. `None` for a register that takes no commands, and for what is no
+    /// finite number.
+    #[inline]
+    pub fn number(&self, register: RegisterId, value: &Value) -> Option<f64> {
         self.rows.get(register.index()).filter(|row| row.is_command)?;
-        self.fit(register, value)
+        finite(value)
+    }
+
+    /// What devices take where `register` keeps `number`: in SI units.
+    #[inline]
+    pub fn si(&self, register: RegisterId, number: f64) -> f64 {
+        let unit = self.rows[register.index()].unit;
+        if unit.to_si == 1.0 { number } else { to_si(number, unit) }
     }
 
     /// The ports that `register` commands.
     pub fn targets(&self, register: RegisterId) -> &[Target] {
         self.rows.get(register.index()).map_or(&[], |row| &row.targets)
     }
+}
+
+#[inline]
+fn finite(value: &Value) -> Option<f64> {
+    value.to_f64().filter(|number| number.is_finite())
 }
 
 #[cfg(test)]
@@ -139,7 +151,14 @@ mod tests {
     }
 
     fn check(value: Value, expect: Option<(Value, f64)>) {
-        assert_eq!(CommandTable::new(&map()).convert(SPEED, &value), expect);
+        let table = CommandTable::new(&map());
+        let mut kept = Value::Real(0.0);
+        let taken = table.number(SPEED, &value).map(|number| {
+            kept.set_f64(number);
+            table.si(SPEED, kept.to_f64().expect("a number"))
+        });
+        assert_eq!(taken.map(|number| (kept.clone(), number)), expect);
+        assert_eq!(table.fit(SPEED, &value), expect.map(|(kept, _)| kept));
     }
 
     #[test]
@@ -153,12 +172,12 @@ mod tests {
     #[test]
     fn a_reported_register_takes_no_command() {
         let table = CommandTable::new(&map());
-        assert_eq!(table.convert(PLACE, &Value::Real(1.0)), None);
-        assert_eq!(table.convert(RegisterId(99), &Value::Real(1.0)), None);
+        assert_eq!(table.number(PLACE, &Value::Real(1.0)), None);
+        assert_eq!(table.number(RegisterId(99), &Value::Real(1.0)), None);
     }
 
     #[test]
-    fn reports_leave_in_the_wires_unit_and_type() {
-        assert_eq!(ReportPort::new(0, PLACE, &map()).value(1.25), Value::Real(1250.0));
+    fn reports_leave_in_the_wires_unit() {
+        assert_eq!(ReportPort::new(0, PLACE, &map()).on_the_wire(1.25), 1250.0);
     }
 }

@@ -213,9 +213,10 @@ impl Engine {
         // A message that is lost takes with it what arrived in the same step.
         let lost = !inputs.is_empty() && std::mem::take(&mut self.operated.loses);
         for (register, value) in inputs.iter().filter(|_| !lost) {
-            let Some((value, number)) = self.commands.convert(*register, value) else { continue };
-            if !self.operated.withholds(*register, &value) {
-                self.set_command(*register, value, number);
+            let commands = &self.commands;
+            let fit = || commands.number(*register, value).and_then(|_| commands.fit(*register, value));
+            if !self.operated.withholds(*register, fit) {
+                self.command(*register, value);
             }
         }
         self.close_mounted();
@@ -223,6 +224,9 @@ impl Engine {
 
     /// Hands the robots' `grip` on to the grippers that hang from them.
     fn close_mounted(&mut self) {
+        if self.mounts.is_empty() {
+            return;
+        }
         for awake in 0..self.attention.awake.len() {
             // A robot that is awake has woken what hangs from it.
             let unit = self.attention.awake[awake] as usize;
@@ -249,7 +253,7 @@ impl Engine {
                 // Of what a device reports, little is new at a step.
                 let number = reports[port.port];
                 if port.is_news(number) {
-                    self.registers.report(port.register, port.value(number));
+                    self.registers.report(port.register, port.on_the_wire(number));
                 }
             }
         }
@@ -279,6 +283,9 @@ impl Engine {
     fn place_bodies(&mut self) {
         for &awake in &self.attention.awake {
             let unit = &self.units[awake as usize];
+            if unit.body == UnitBody::Apart {
+                continue;
+            }
             match (unit.device.role(), unit.body) {
                 (Role::Carries(belt), UnitBody::Belt(index)) => {
                     self.floor.belts[index].displacement = belt.displacement;
@@ -303,7 +310,8 @@ impl Engine {
             }
         }
         // What hangs from a robot is where that is now.
-        for &awake in &self.attention.awake {
+        let cups = if self.floor.cups.is_empty() { &[] } else { self.attention.awake.as_slice() };
+        for &awake in cups {
             if let UnitBody::Cups(index, frame) = self.units[awake as usize].body {
                 self.frames.resolve_one(frame);
                 self.floor.cups[index].rim = *self.frames.world(frame);

@@ -115,13 +115,14 @@ impl Operated {
         self.held.iter().find(|held| held.signal == signal)
     }
 
-    /// Whether a command for `signal` must wait; it is kept then.
-    pub fn withholds(&mut self, signal: RegisterId, value: &Value) -> bool {
+    /// Whether a command for `signal` must wait; it is kept then, as `fit` makes it fit the register.
+    pub fn withholds(&mut self, signal: RegisterId, fit: impl FnOnce() -> Option<Value>) -> bool {
         if self.held.is_empty() || self.held(signal).is_none() {
             return false;
         }
+        let Some(value) = fit() else { return true };
         self.withheld.retain(|(other, _)| *other != signal);
-        self.withheld.push((signal, value.clone()));
+        self.withheld.push((signal, value));
         true
     }
 
@@ -133,7 +134,7 @@ impl Operated {
     /// Puts what is held in the place of what was reported.
     pub fn cover(&self, registers: &mut Registers) {
         for held in &self.held {
-            registers.report(held.signal, held.value.clone());
+            registers.hold(held.signal, &held.value);
         }
     }
 }
@@ -191,14 +192,14 @@ impl Engine {
     }
 
     fn force(&mut self, signal: RegisterId, value: &Value) -> Result<(), ActError> {
-        let Some((value, number)) = self.commands.fit(signal, value) else { return Err(ActError::Unfit) };
+        let Some(value) = self.commands.fit(signal, value) else { return Err(ActError::Unfit) };
         let was_held = self.operated.held(signal).is_some();
         if self.commands.is_command(signal) {
             if !was_held {
                 let present = self.registers.get(signal).clone();
                 self.operated.withheld.push((signal, present));
             }
-            self.set_command(signal, value.clone(), number);
+            self.command(signal, &value);
         }
         self.operated.held.retain(|held| held.signal != signal);
         self.operated.held.push(Held { signal, value, sticks: false });
@@ -222,16 +223,17 @@ impl Engine {
         self.operated.held.remove(place);
         if let Some(place) = self.operated.withheld.iter().position(|(other, _)| *other == signal) {
             let (_, value) = self.operated.withheld.remove(place);
-            if let Some((value, number)) = self.commands.convert(signal, &value) {
-                self.set_command(signal, value, number);
-            }
+            self.command(signal, &value);
         }
         Ok(())
     }
 
-    /// Sets a command's register and hands it to the devices.
-    pub(super) fn set_command(&mut self, register: RegisterId, value: Value, number: f64) {
-        self.registers.command(register, value);
+    /// Sets a command's register and hands it to the devices, in SI units. What is no finite number is passed over.
+    #[inline]
+    pub(super) fn command(&mut self, register: RegisterId, value: &Value) {
+        let Some(number) = self.commands.number(register, value) else { return };
+        let Some(kept) = self.registers.command(register, number) else { return };
+        let number = self.commands.si(register, kept);
         for index in 0..self.commands.targets(register).len() {
             let target = self.commands.targets(register)[index];
             if self.operated.dead.is_empty() || !self.operated.is_dead(target) {
@@ -311,9 +313,11 @@ impl Engine {
                 dead.iter().any(|dead| dead.unit == target.unit && dead.ports.contains(&target.port))
             };
             let targets: Vec<Target> = self.commands.targets(register).iter().filter(concerns).copied().collect();
-            if let (false, Some((_, number))) =
-                (targets.is_empty(), self.commands.convert(register, self.registers.get(register)))
-            {
+            if targets.is_empty() {
+                continue;
+            }
+            if let Some(number) = self.commands.number(register, self.registers.get(register)) {
+                let number = self.commands.si(register, number);
                 targets.iter().for_each(|target| self.units[target.unit].device.command(target.port, number));
             }
         }

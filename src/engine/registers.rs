@@ -30,18 +30,36 @@ impl Registers {
         &self.values[register.index()]
     }
 
-    /// Keeps what the automation commands.
-    pub fn command(&mut self, register: RegisterId, value: Value) {
-        self.values[register.index()] = value;
+    /// Keeps what the automation commands, in the register's type, and gives what is kept; `None` where that is no number.
+    #[inline]
+    pub fn command(&mut self, register: RegisterId, number: f64) -> Option<f64> {
+        let place = &mut self.values[register.index()];
+        place.set_f64(number);
+        place.to_f64()
     }
 
     /// Sets what is reported.
-    pub fn report(&mut self, register: RegisterId, value: Value) {
+    #[inline]
+    pub fn report(&mut self, register: RegisterId, number: f64) {
+        if self.values[register.index()].set_f64(number) {
+            self.list(register);
+        }
+    }
+
+    /// Sets what is held in the place of what would be reported.
+    pub fn hold(&mut self, register: RegisterId, value: &Value) {
         let place = &mut self.values[register.index()];
-        if *place != value && !std::mem::replace(&mut self.listed[register.index()], true) {
+        if place != value {
+            place.clone_from(value);
+            self.list(register);
+        }
+    }
+
+    #[inline]
+    fn list(&mut self, register: RegisterId) {
+        if !std::mem::replace(&mut self.listed[register.index()], true) {
             self.changed.push(register);
         }
-        *place = value;
     }
 
     /// Puts the reports that were set to another value since the last call into `out` (cleared first), in the order of their ids.
@@ -63,8 +81,8 @@ mod tests {
     #[test]
     fn what_changed_is_said_once_and_in_order() {
         let mut registers = Registers::new(vec![Value::Int(0); 4]);
-        for (register, value) in [(3, 7), (1, 1), (3, 8), (2, 0), (1, 0)] {
-            registers.report(RegisterId(register), Value::Int(value));
+        for (register, value) in [(3, 7.0), (1, 1.0), (3, 8.0), (2, 0.0), (1, 0.0)] {
+            registers.report(RegisterId(register), value);
         }
         let mut changed = vec![RegisterId(0)];
         registers.take_changed(&mut changed);
@@ -73,8 +91,10 @@ mod tests {
         assert_eq!(registers.all(), [0, 0, 0, 8].map(Value::Int));
         registers.take_changed(&mut changed);
         assert!(changed.is_empty());
-        registers.command(RegisterId(0), Value::Int(9));
-        registers.report(RegisterId(3), Value::Int(9));
+        assert_eq!(registers.command(RegisterId(0), 9.2), Some(9.0));
+        registers.report(RegisterId(3), 8.0);
+        registers.hold(RegisterId(3), &Value::Int(9));
+        registers.hold(RegisterId(2), &Value::Int(0));
         registers.take_changed(&mut changed);
         assert_eq!(changed, [RegisterId(3)]);
     }

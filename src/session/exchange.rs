@@ -7,7 +7,7 @@ use memchr::memchr2;
 
 use super::Staged;
 use crate::signal_map::{Direction, RegisterId, Signal, SignalMap};
-use crate::value::{ElementaryType, Quantity, SignalType, Unit, Value};
+use crate::value::{ElementaryType, Quantity, SignalType, Unit, Value, push_reserved};
 use crate::wire::{Entry, Fault, Message, Raw, ResultCode, SendValueText, TextForm, read_value};
 
 /// The longest `SendValueReply` sent, in bytes: half the limit of a peer that keeps the default. A message of a megabyte
@@ -23,18 +23,33 @@ pub(crate) struct Exchange {
     map: Arc<SignalMap>,
     /// The direction of the signals that this end sets.
     ours: Direction,
-    /// For each register, the number of the last message that held a good value of it, and that value's place.
-    seen: Vec<(u64, usize)>,
+    /// By register.
+    rows: Vec<Row>,
+    /// What the entries of all registers begin with, one after the other.
+    heads: String,
     messages: u64,
-    /// For each register, the one that followed it in the last message that held it: a peer says its signals in the same
-    /// order again and again, and comparing a name is faster than looking it up.
-    next: Vec<u32>,
-    /// The one that the last message began with.
+    /// The register that the last message began with.
     first: u32,
     /// How many values the last message had.
     common: usize,
-    /// For each register, the beginning of its entry in a message.
-    begun: Vec<Box<str>>,
+}
+
+/// What is looked at for every value, close together: a plant has hundreds of signals, and a cycle is long enough for a
+/// processor to forget them all.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    /// Where the beginning of its entry in a message stands in `heads`.
+    head: (u32, u32),
+    /// The register that followed it in the last message that held it: a peer says its signals in the same order again and
+    /// again, and comparing a name is faster than looking it up.
+    next: u32,
+    /// The number of the last message that held a good value of it, and that value's place.
+    message: u64,
+    place: u32,
+    ty: SignalType,
+    is_ours: bool,
+    /// Whether its signal declares a range.
+    is_bounded: bool,
 }
 
 /// What became of one `SendValue`.
@@ -58,10 +73,27 @@ pub(super) struct Sending {
 
 impl Exchange {
     pub(crate) fn new(map: Arc<SignalMap>, ours: Direction) -> Exchange {
-        let seen = vec![(0, 0); map.signals().len()];
-        let next = (1..=map.signals().len() as u32).collect();
-        let begun = map.signals().iter().map(|signal| SendValueText::begin(&signal.name)).collect();
-        Exchange { map, ours, seen, messages: 0, next, first: 0, common: 0, begun }
+        let mut heads = String::new();
+        let row = |(index, signal): (usize, &Signal)| {
+            let start = heads.len() as u32;
+            heads.push_str(&SendValueText::begin(&signal.name));
+            Row {
+                head: (start, heads.len() as u32),
+                next: index as u32 + 1,
+                message: 0,
+                place: 0,
+                ty: signal.ty,
+                is_ours: signal.direction == ours,
+                is_bounded: signal.min.is_some() || signal.max.is_some(),
+            }
+        };
+        let rows = map.signals().iter().enumerate().map(row).collect();
+        Exchange { map, ours, rows, heads, messages: 0, first: 0, common: 0 }
+    }
+
+    /// What the entry of a register begins with.
+    fn head(&self, row: &Row) -> &str {
+        &self.heads[row.head.0 as usize..row.head.1 as usize]
     }
 
     pub(super) fn map(&self) -> &SignalMap {
@@ -83,13 +115,15 @@ impl Exchange {
             };
             match self.entry(name, entry, &mut last, &mut suggestions) {
                 Err((result, message)) => faults.push(Fault { name: name.to_string(), result, message }),
-                Ok((register, value)) => match self.seen[register.index()] {
-                    (message, place) if message == self.messages => values[place].1 = value,
-                    _ => {
-                        self.seen[register.index()] = (self.messages, values.len());
+                Ok((register, value)) => {
+                    let row = &mut self.rows[register.index()];
+                    if row.message == self.messages {
+                        values[row.place as usize].1 = value;
+                    } else {
+                        (row.message, row.place) = (self.messages, values.len() as u32);
                         values.push((register, value));
                     }
-                },
+                }
             }
         }
         let reply = (!faults.is_empty()).then(|| reply(&faults));
@@ -111,22 +145,38 @@ impl Exchange {
         let mut last = None;
         loop {
             let guess = self.guess(last);
-            let (register, value) = match self.begun.get(guess.index()).and_then(|begun| rest.strip_prefix(&**begun)) {
+            let begins = |row: &Row| rest.strip_prefix(self.head(row));
+            let (register, value) = match self.rows.get(guess.index()).and_then(begins) {
                 Some(value) => (guess, value),
                 None => {
                     let register = self.map.register(plain_name(rest)?)?;
-                    (register, rest.strip_prefix(&*self.begun[register.index()])?)
+                    (register, begins(&self.rows[register.index()])?)
                 }
             };
             self.follow(register, &mut last);
-            let seen = std::mem::replace(&mut self.seen[register.index()], (self.messages, values.len()));
-            let signal = self.map.signal(register);
-            if signal.direction == self.ours || seen.0 == self.messages || values.len() == limit {
+            let row = &mut self.rows[register.index()];
+            let seen = std::mem::replace(&mut row.message, self.messages);
+            row.place = values.len() as u32;
+            if row.is_ours || seen == self.messages || values.len() == limit {
                 return None;
             }
-            let (value, after) = leading_value(value, signal.ty)?;
-            within_range(signal, &value).ok()?;
-            values.push((register, value));
+            // Most signals of a plant are these, and nothing but two words is one.
+            values.reserve(1);
+            let after = if row.ty != SignalType::scalar(ElementaryType::Bool) || row.is_bounded {
+                let (raw, after) = Raw::leading(value)?;
+                let value = read_value(raw, row.ty, TextForm::Base64).ok()?;
+                if row.is_bounded {
+                    within_range(self.map.signal(register), &value).ok()?;
+                }
+                values.push((register, value));
+                after
+            } else if let Some(after) = value.strip_prefix("true") {
+                push_reserved(&mut values, (register, Value::Bool(true)));
+                after
+            } else {
+                push_reserved(&mut values, (register, Value::Bool(false)));
+                value.strip_prefix("false")?
+            };
             let after = after.strip_prefix('}')?;
             match after.strip_prefix(',') {
                 Some(after) => rest = after,
@@ -140,13 +190,13 @@ impl Exchange {
 
     /// The register that probably follows `last`, or that a message probably begins with.
     fn guess(&self, last: Option<RegisterId>) -> RegisterId {
-        RegisterId(last.map_or(self.first, |last| self.next[last.index()]))
+        RegisterId(last.map_or(self.first, |last| self.rows[last.index()].next))
     }
 
     /// Remembers that `register` followed `last`, or that the message began with it; it is the last from now on.
     fn follow(&mut self, register: RegisterId, last: &mut Option<RegisterId>) {
         match last.replace(register) {
-            Some(last) => self.next[last.index()] = register.0,
+            Some(last) => self.rows[last.index()].next = register.0,
             None => self.first = register.0,
         }
     }
@@ -194,26 +244,16 @@ impl Exchange {
         let mut text = SendValueText::with_capacity(values.len());
         let mut unsendable = Vec::new();
         for (register, value) in values {
-            let signal = self.map.signal(*register);
-            if signal.direction != self.ours {
-                unsendable.push((*register, format!("{} is the other side's to set, and was not sent", signal.name)));
-            } else if let Err(error) = text.push_begun(&self.begun[register.index()], value) {
-                unsendable.push((*register, format!("{} was not sent: {error}", signal.name)));
+            let row = &self.rows[register.index()];
+            let name = || &self.map.signal(*register).name;
+            if !row.is_ours {
+                unsendable.push((*register, format!("{} is the other side's to set, and was not sent", name())));
+            } else if let Err(error) = text.push_begun(self.head(row), value) {
+                unsendable.push((*register, format!("{} was not sent: {error}", name())));
             }
         }
         Sending { text: text.finish(), unsendable }
     }
-}
-
-/// The value of type `ty` that `text` begins with, and what follows it.
-fn leading_value(text: &str, ty: SignalType) -> Option<(Value, &str)> {
-    // Most signals of a plant are these, and nothing but these two words is one.
-    if ty == SignalType::scalar(ElementaryType::Bool) {
-        let is = |word, value| text.strip_prefix(word).map(|after| (Value::Bool(value), after));
-        return is("true", true).or_else(|| is("false", false));
-    }
-    let (raw, after) = Raw::leading(text)?;
-    read_value(raw, ty, TextForm::Base64).ok().map(|value| (value, after))
 }
 
 /// The name in an entry that `text` begins with, where it is written without an escape.
