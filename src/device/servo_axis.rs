@@ -4,6 +4,7 @@ use crate::device::law::moves;
 use crate::device::law::profile::{Limits, Profile};
 use crate::device::law::servo::{HIGHEST_RATE, Loop, Mechanics, Servo};
 use crate::device::law::slope::Slope;
+use crate::device::law::transition::Transitions;
 use crate::device::path::{Bounds, Moment, Motion, Stages};
 use crate::device::servo_path::{self, Exertion, Nominal};
 use crate::device::table::{
@@ -120,6 +121,7 @@ struct ServoAxis {
     velocity_target: f64,
     force_target: f64,
     servo: Servo,
+    transitions: Transitions,
     nominal: Nominal,
     stages: Stages,
     /// Whether the drive was told that it may exert a force.
@@ -169,6 +171,7 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
         velocity_target: 0.0,
         force_target: 0.0,
         servo,
+        transitions: Transitions::default(),
         nominal: Nominal { drive, mechanics },
         stages: Stages::default(),
         torque: true,
@@ -320,7 +323,8 @@ impl ServoAxis {
 
     fn move_by(&mut self, stages: &mut Stages, moment: Moment, span: f64) -> f64 {
         let moment = Moment { span, ..moment };
-        servo_path::advance(&mut self.servo, &self.nominal, &mut self.exertion, stages, moment);
+        let ServoAxis { servo, nominal, exertion, transitions, .. } = self;
+        servo_path::advance(servo, nominal, exertion, stages, transitions, moment);
         span
     }
 
@@ -460,7 +464,7 @@ impl Device for ServoAxis {
             let span = rest.min(self.steady());
             // Actuator, mechanics and load are one loop.
             if self.mode != Mode::Ideal {
-                self.servo.advance(span);
+                self.servo.advance_again(span, &mut self.transitions);
             }
             self.position_target.advance(span);
             self.servo.reference = self.reference();

@@ -6,6 +6,7 @@
 //! B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008, section 1.3).
 
 use super::law::servo::{Loop, Mechanics, Servo};
+use super::law::transition::Transitions;
 use super::path::{Bounds, Burden, Effort, Friction, Moment, Motion, Stages};
 
 /// How often the place where the motion comes to rest is halved: a millionth of a stretch.
@@ -45,6 +46,7 @@ pub(super) fn advance(
     nominal: &Nominal,
     exertion: &mut Exertion,
     stages: &mut Stages,
+    transitions: &mut Transitions,
     moment: Moment,
 ) {
     let mut rest = moment.span;
@@ -52,7 +54,7 @@ pub(super) fn advance(
         let span = if stages.shapes_effort() { rest.min(EFFORT_STRETCH_S) } else { rest };
         rest -= span;
         let part = Moment { now: moment.now - rest, span };
-        let taken = stretch(servo, nominal, exertion, stages, part);
+        let taken = stretch(servo, nominal, exertion, stages, transitions, part);
         rest += span - taken;
     }
 }
@@ -61,7 +63,14 @@ pub(super) fn advance(
 ///
 /// A drive of which only a share s reaches the axis moves it as a whole drive would move 1/s of everything that resists:
 /// s·F = M·dv/dt + R is F = (M/s)·dv/dt + R/s. So the loop's own law stays exact.
-fn stretch(servo: &mut Servo, nominal: &Nominal, exertion: &mut Exertion, stages: &mut Stages, moment: Moment) -> f64 {
+fn stretch(
+    servo: &mut Servo,
+    nominal: &Nominal,
+    exertion: &mut Exertion,
+    stages: &mut Stages,
+    transitions: &mut Transitions,
+    moment: Moment,
+) -> f64 {
     let motion = Motion { position: servo.position(), velocity: servo.velocity() };
     let Mechanics { inertia, viscous_friction, load, pendulum } = nominal.mechanics;
     let burden = stages.load.burden(Burden { inertia, force: load }, motion, moment);
@@ -105,7 +114,8 @@ fn stretch(servo: &mut Servo, nominal: &Nominal, exertion: &mut Exertion, stages
         mover.open(passed);
         servo.wait(moment.span);
     }
-    let taken = until_rest(&mut mover, way, friction.sliding.max(friction.sticking) > 0.0, moment.span);
+    let may_stick = friction.sliding.max(friction.sticking) > 0.0;
+    let taken = until_rest(&mut mover, transitions, way, may_stick, moment.span);
     if stages.shapes_effort() {
         servo.follow(&mover);
     } else {
@@ -130,9 +140,9 @@ fn bound(servo: &mut Servo, bounds: Bounds, share: f64, span: f64) {
 }
 
 /// Moves by `span`, or to the instant at which the motion along `way` comes to rest, if friction may hold it there.
-fn until_rest(servo: &mut Servo, way: f64, may_stick: bool, span: f64) -> f64 {
+fn until_rest(servo: &mut Servo, transitions: &mut Transitions, way: f64, may_stick: bool, span: f64) -> f64 {
     let start = *servo;
-    servo.advance(span);
+    servo.advance_again(span, transitions);
     if !may_stick || servo.velocity() * way >= 0.0 {
         return span;
     }

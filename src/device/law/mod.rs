@@ -12,6 +12,7 @@ pub mod slope;
 pub mod stroke;
 pub mod sum;
 pub mod taylor;
+pub mod transition;
 pub mod vacuum;
 
 /// What two times may differ by and still be the same, s. The project's clocks count whole nanoseconds: an event within

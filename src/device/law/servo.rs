@@ -18,6 +18,7 @@
 //! is exact whatever the span: see [`super::taylor`].
 
 use super::taylor::{ORDER, RECIPROCALS, Series, order_for};
+use super::transition::{Linear, Transitions};
 
 /// Standard gravity, m/s² (3rd CGPM, 1901).
 const GRAVITY: f64 = 9.80665;
@@ -225,6 +226,38 @@ impl Servo {
     /// A bound of the rates at which loop and mechanics can move, 1/s.
     pub fn rate(&self) -> f64 {
         self.rate
+    }
+
+    /// Moves by `seconds`, as [`advance`](Self::advance) does, and faster where that span came before: `transitions` are those
+    /// of this axis. Which of the two it was shows in the last digit at most.
+    pub fn advance_again(&mut self, seconds: f64, transitions: &mut Transitions) {
+        if !self.leap(seconds, transitions) {
+            self.advance(seconds);
+        }
+    }
+
+    /// Moves by `seconds` by one product, if that is known and no limit comes near on the way.
+    fn leap(&mut self, seconds: f64, transitions: &mut Transitions) -> bool {
+        let Loop { position_gain, velocity_gain, integral_time, limit, .. } = self.drive;
+        let Mechanics { inertia, pendulum, .. } = self.mechanics;
+        let reaches = self.rate * seconds <= LINEAR_STEP;
+        if !self.torque || pendulum != 0.0 || !reaches || self.is_open() {
+            return false;
+        }
+        let reset = integral_time.map_or(0.0, |time| 1.0 / time);
+        let (damping, rate) = (self.damping(), self.rate);
+        let linear = Linear { span: seconds, position_gain, velocity_gain, damping, inertia, reset, rate };
+        let demand = self.demand();
+        let slopes = [self.velocity, self.acceleration(), (self.force() - self.integral) * reset];
+        let Some(known) = transitions.of(linear) else { return false };
+        if !known.keeps_within(limit - demand.abs(), slopes) {
+            return false;
+        }
+        let [position, velocity, integral] = known.change(slopes);
+        self.position += position;
+        self.velocity += velocity;
+        self.integral += integral;
+        true
     }
 
     /// Moves by `seconds`.

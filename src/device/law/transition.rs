@@ -1,0 +1,214 @@
+//! The motion of a servo's loop over a span of a length that comes again and again: found once, and then a product.
+//!
+//! Where nothing limits the drive, position, velocity and integrator y = (x, v, i) follow y' = A·y + b with b constant, so that
+//!
+//! ```text
+//! y(t) = y(0) + Φ(t)·y'(0),   Φ(t) = ∫₀ᵗ exp(A·s) ds = Σ Aᵏ·tᵏ⁺¹ / (k + 1)!
+//! ```
+//!
+//! (C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Transactions on Automatic Control 23, 1978.)
+//! Φ depends on the loop and on t alone, and a machine is looked at and told at spans that hardly change.
+
+use super::taylor::ORDER;
+
+/// How many spans are known at once: a command between two looks makes two, and a stage may have a loop of its own.
+const KNOWN: usize = 4;
+
+/// A linear loop and a span of time; what Φ depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Linear {
+    /// s, no longer than a series of [`ORDER`] is good for.
+    pub span: f64,
+    /// The force that the loop takes back for each unit of position and of velocity, and what else opposes velocity.
+    pub position_gain: f64,
+    pub velocity_gain: f64,
+    pub damping: f64,
+    pub inertia: f64,
+    /// 1 / the integrator's time, 1/s; 0 where there is none.
+    pub reset: f64,
+    /// A bound of its rates, 1/s: the scale in which velocity and acceleration are compared.
+    pub rate: f64,
+}
+
+/// What is known of one of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Known {
+    linear: Linear,
+    /// `None` after it was met for the first time: what comes once is not worth it.
+    transition: Option<Transition>,
+}
+
+/// Φ of a loop over a span.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Transition {
+    integral: [[f64; 3]; 3],
+    /// How far the loop's demand moves within the span, at most, for each unit of [`Transition::size`] of y'(0).
+    spread: f64,
+    /// The scales of velocity, acceleration and the integrator's rate in that.
+    scales: [f64; 3],
+}
+
+/// The transitions of the spans that came last.
+#[derive(Clone, Debug, Default)]
+pub struct Transitions {
+    known: [Option<Known>; KNOWN],
+    oldest: usize,
+}
+
+impl Transitions {
+    /// The transition of `linear`, from the second time on that it is asked for.
+    pub(super) fn of(&mut self, linear: Linear) -> Option<&Transition> {
+        match self.known.iter().position(|known| known.as_ref().is_some_and(|known| known.linear == linear)) {
+            Some(place) => {
+                let known = self.known[place].as_mut()?;
+                Some(known.transition.get_or_insert_with(|| Transition::new(&linear)))
+            }
+            None => {
+                self.known[self.oldest] = Some(Known { linear, transition: None });
+                self.oldest = (self.oldest + 1) % KNOWN;
+                None
+            }
+        }
+    }
+}
+
+impl Transition {
+    fn new(linear: &Linear) -> Transition {
+        let Linear { span, position_gain, velocity_gain, damping, inertia, reset, rate } = *linear;
+        let matrix = [
+            [0.0, 1.0, 0.0],
+            [-position_gain / inertia, -(velocity_gain + damping) / inertia, 1.0 / inertia],
+            [-position_gain * reset, -velocity_gain * reset, 0.0],
+        ];
+        // Horner's rule from the smallest term on: Φ = t·(1 + A·t/2·(1 + A·t/3·(…))).
+        let mut integral = IDENTITY;
+        for k in (2..=ORDER).rev() {
+            integral = plus_identity(scaled(&product(&matrix, &integral), span / k as f64));
+        }
+        // Of y'(s) = exp(A·s)·y'(0), each component in its scale is at most exp(ν·s) times the largest at first, with ν the
+        // greatest row sum of A in those scales; the demand's rate is −gx·v − gv·a + di/dt.
+        let scales = [1.0, 1.0 / rate, 1.0 / (inertia * rate * rate)];
+        let bound =
+            |row: usize| -> f64 { (0..3).map(|column| matrix[row][column].abs() * scales[row] / scales[column]).sum() };
+        let growth = (0..3).map(bound).fold(0.0, f64::max) * span;
+        let slope = position_gain / scales[0] + velocity_gain / scales[1] + 1.0 / scales[2];
+        Transition { integral: scaled(&integral, span), spread: span * slope * growth.exp(), scales }
+    }
+
+    /// Whether a demand that may move by `margin` either way stays within that all along, where y'(0) is `slopes`.
+    pub fn keeps_within(&self, margin: f64, slopes: [f64; 3]) -> bool {
+        self.spread * self.size(slopes) < margin
+    }
+
+    fn size(&self, slopes: [f64; 3]) -> f64 {
+        slopes.iter().zip(&self.scales).map(|(slope, scale)| slope.abs() * scale).fold(0.0, f64::max)
+    }
+
+    /// What is added to y, where y'(0) is `slopes`.
+    pub fn change(&self, slopes: [f64; 3]) -> [f64; 3] {
+        self.integral.map(|row| row[0] * slopes[0] + row[1] * slopes[1] + row[2] * slopes[2])
+    }
+}
+
+const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    a.map(|row| [0, 1, 2].map(|column| (0..3).map(|k| row[k] * b[k][column]).sum()))
+}
+
+fn scaled(matrix: &[[f64; 3]; 3], factor: f64) -> [[f64; 3]; 3] {
+    matrix.map(|row| row.map(|entry| entry * factor))
+}
+
+fn plus_identity(mut matrix: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    (0..3).for_each(|k| matrix[k][k] += 1.0);
+    matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::device::law::servo::{Loop, Mechanics, Servo};
+
+    const LOOP: Linear = Linear {
+        span: 0.002,
+        position_gain: 20_000.0,
+        velocity_gain: 800.0,
+        damping: 50.0,
+        inertia: 20.0,
+        reset: 10.0,
+        rate: 90.0,
+    };
+
+    #[test]
+    fn what_comes_once_is_not_computed() {
+        let mut transitions = Transitions::default();
+        for span in [1.0, 2.0, 3.0, 4.0, 5.0, 1.0] {
+            assert_eq!(transitions.of(Linear { span: span * 1e-4, ..LOOP }), None, "{span}");
+        }
+        assert!(transitions.of(Linear { span: 1e-4, ..LOOP }).is_some());
+        assert_eq!(transitions.of(Linear { span: 1e-4, inertia: 21.0, ..LOOP }), None, "another loop");
+    }
+
+    #[test]
+    fn an_undamped_spring_swings_as_sine_and_cosine() {
+        // x'' = −ω²·x: Φ is (sin ωt / ω, (1 − cos ωt) / ω²; cos ωt − 1, sin ωt / ω).
+        let omega = 30.0_f64;
+        let spring =
+            Linear { position_gain: omega * omega * 20.0, velocity_gain: 0.0, damping: 0.0, reset: 0.0, ..LOOP };
+        let (sine, cosine) = (omega * 0.002).sin_cos();
+        let [dx, dv, di] = Transition::new(&spring).change([3.0, 7.0, 0.0]);
+        assert!((dx - 3.0 * sine / omega - 7.0 * (1.0 - cosine) / (omega * omega)).abs() < 1e-17, "{dx}");
+        assert!((dv - 3.0 * (cosine - 1.0) - 7.0 * sine / omega).abs() < 1e-15, "{dv}");
+        assert_eq!(di, 0.0);
+    }
+
+    #[test]
+    fn a_demand_stays_within_its_bound() {
+        let whole = Transition::new(&LOOP);
+        let mut tightest = 0.0_f64;
+        for slopes in [[0.5, -20.0, 300.0], [-0.1, 0.0, -5000.0], [0.0, 90.0, 0.0], [1.0, 90.0, -150_000.0]] {
+            let greatest = whole.spread * whole.size(slopes);
+            let demand = |[x, v, i]: [f64; 3]| i - LOOP.position_gain * x - LOOP.velocity_gain * v;
+            let moved = (1..=64).map(|part| {
+                let span = LOOP.span * f64::from(part) / 64.0;
+                demand(Transition::new(&Linear { span, ..LOOP }).change(slopes)).abs()
+            });
+            let farthest = moved.fold(0.0, f64::max);
+            assert!(farthest <= greatest, "{farthest} of {greatest}");
+            tightest = tightest.max(farthest / greatest);
+            assert!(whole.keeps_within(1.01 * greatest, slopes) && !whole.keeps_within(0.99 * greatest, slopes));
+        }
+        // A bound that is far off would never let anything pass.
+        assert!(tightest > 0.3, "{tightest}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn an_axis_moves_as_its_series_has_it(
+            reference in -5000.0..5000.0_f64, velocity in -1.0..1.0_f64, limit in 10.0..6000.0_f64, span in 1e-4..0.02_f64,
+            integral_time in prop::option::of(0.02..1.0_f64),
+        ) {
+            let drive = Loop { position_gain: 20_000.0, velocity_gain: 800.0, integral_time, limit, back_emf: 0.0 };
+            let mechanics = Mechanics { inertia: 20.0, viscous_friction: 50.0, load: 0.0, pendulum: 0.0 };
+            let mut series = Servo::new(drive, mechanics);
+            series.shift(0.0, velocity);
+            let mut again = series;
+            let mut transitions = Transitions::default();
+            for step in 0..60 {
+                let reference = if step / 10 % 2 == 0 { reference } else { -reference };
+                (series.reference, again.reference) = (reference, reference);
+                series.advance(span);
+                again.advance_again(span, &mut transitions);
+                let close = |ours: f64, theirs: f64, bound: f64| (ours - theirs).abs() < bound;
+                prop_assert!(close(again.position(), series.position(), 1e-12), "{again:?} {series:?}");
+                prop_assert!(close(again.velocity(), series.velocity(), 1e-10), "{again:?} {series:?}");
+                prop_assert!(close(again.force(), series.force(), 1e-7), "{again:?} {series:?}");
+            }
+        }
+    }
+}
