@@ -8,6 +8,7 @@ use crate::time::Instant;
 use crate::value::{Value, push_reserved};
 
 use super::ring::{Consumer, Producer, ring};
+use super::sync::Cell;
 use super::triple::{Reader, Writer, triple};
 use super::words::{Layout, Place, append, decode, decode_to, encode};
 
@@ -370,14 +371,16 @@ impl IoSide {
     /// The cycle in hand is that of the last [`changed`](Self::changed): call it first, and send its groups first.
     pub fn levels(&mut self, rate: RateClass, out: &mut Vec<(RegisterId, Value)>) -> Option<Instant> {
         let at = self.snapshot()?.at();
+        let cells = &self.cycle.cells()[CYCLE_HEADER..];
         for place in self.layout.levels(rate) {
-            let sent = &mut self.sent[place.start()..place.start() + place.words()];
-            let mut changed = false;
-            for (i, word) in sent.iter_mut().enumerate() {
-                let now = self.cycle.word(CYCLE_HEADER + place.start() + i);
-                changed |= std::mem::replace(word, now) != now;
-            }
-            if changed {
+            let run = place.start()..place.start() + place.words();
+            let (cells, sent) = (&cells[run.clone()], &mut self.sent[run]);
+            let is_new = match (cells, &mut *sent) {
+                // As nearly every signal is.
+                ([cell], [word]) => renew(cell, word),
+                _ => cells.iter().zip(sent.iter_mut()).fold(false, |new, (cell, word)| renew(cell, word) | new),
+            };
+            if is_new {
                 out.reserve(1);
                 decode_to(place.ty, |word| sent[word], |value| push_reserved(out, (place.id, value)));
             }
@@ -407,6 +410,12 @@ impl IoSide {
     pub fn snapshot(&self) -> Option<Snapshot<'_>> {
         self.published.then_some(Snapshot { side: self })
     }
+}
+
+/// Brings a word up to date and says whether it was not.
+fn renew(cell: &Cell, word: &mut u64) -> bool {
+    let now = cell.read();
+    std::mem::replace(word, now) != now
 }
 
 /// One cycle: all report registers as one step published them.

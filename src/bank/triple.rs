@@ -117,6 +117,11 @@ impl Reader {
 
     /// A word of the cycle in hand.
     pub(super) fn word(&self, at: usize) -> u64 {
-        self.shared.buffers[self.own as usize][at].read()
+        self.cells()[at].read()
+    }
+
+    /// All words of the cycle in hand.
+    pub(super) fn cells(&self) -> &[Cell] {
+        &self.shared.buffers[self.own as usize]
     }
 }

@@ -279,10 +279,6 @@ impl Table {
             Goal::new("a loaded run's round trip in 1 ms steps, p99, µs", get(names::RUN_LOAD, Quantity::P99), 1_300.0),
             Goal::new("the loop's lateness to a bare thread's, p99.9", ratios.lateness_p999, 1.2),
         ];
-        for (which, name) in [("an idle", names::RUN_IDLE_REALTIME), ("a loaded", names::RUN_LOAD_REALTIME)] {
-            let what = format!("{which} run's round trip in 1 ms steps under real-time scheduling, p99, µs");
-            goals.push(Goal::new(&what, get(name, Quantity::P99), 1_300.0));
-        }
         let realtime = ratio(lateness::REALTIME.looped, lateness::REALTIME.bare, Quantity::P999);
         goals.push(Goal::new("the same under real-time scheduling, p99.9", realtime, 1.2));
         for row in rows.iter().filter(|row| is_rival(&row.name)) {

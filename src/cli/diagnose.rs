@@ -8,7 +8,7 @@ use std::time::Duration;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::locate::{masks, open};
+use super::locate::{Masks, open};
 use super::output::write_whole;
 use super::signals::Interruption;
 use super::{Answer, Failure, words};
@@ -49,11 +49,11 @@ pub struct DiagnoseArguments {
     /// The devices to look at, by their instances' names [default: all]
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub devices: Vec<String>,
-    /// Spans to leave out of every trace: lines FROM,TO in seconds since its start, and perhaps ,WHY
+    /// Spans to leave out of every trace, or of one: lines FROM,TO in seconds since its start, and perhaps ,WHY
     ///
     /// For manual operation, jams and emergency stops, which are no evidence of how the machine works.
-    #[arg(long, value_name = "FILE")]
-    pub mask: Option<PathBuf>,
+    #[arg(long, value_name = "[TRACE=]FILE")]
+    pub mask: Vec<String>,
     /// The folder for report.json, report.html and effects.xml; what stands there under these names is replaced
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -76,10 +76,11 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
     let plant = model::load(&arguments.model)?;
     let effects = asked(&arguments.effects)?;
     let devices = meant(&plant, &arguments.devices)?;
-    let masks = arguments.mask.as_deref().map(masks).transpose()?.unwrap_or_default();
+    let traces: Vec<&PathBuf> = arguments.train.iter().chain(&arguments.holdout).collect();
+    let masks = Masks::read(&arguments.mask, &traces)?;
     let read = |paths: &[PathBuf]| {
         let recording = |path: &PathBuf| {
-            let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks);
+            let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks.of(path));
             let mut recording = recording.map_err(|error| Failure::of(&error))?;
             set_up(&mut recording, &plant, &arguments.model)?;
             Ok(segments(&plant, recording))
@@ -244,7 +245,7 @@ fn write(plant: &Plant, arguments: &DiagnoseArguments, answer: Diagnosis) -> Res
         model: arguments.model.clone(),
         train: paths(&arguments.train),
         holdout: paths(&arguments.holdout),
-        mask: arguments.mask.as_ref().map(|path| path.display().to_string()),
+        mask: (!arguments.mask.is_empty()).then(|| arguments.mask.join(", ")),
     });
     let effects = effects_xml(&report, &plant.name);
     let none =

@@ -34,11 +34,11 @@ pub struct LocateArguments {
     /// A recording of the machine: *.cps.jsonl, or compressed *.cps.jsonl.zst; may be given several times
     #[arg(long = "trace", value_name = "TRACE", required = true, num_args = 1..)]
     pub traces: Vec<PathBuf>,
-    /// Spans to leave out of every trace: lines FROM,TO in seconds since its start, and perhaps ,WHY
+    /// Spans to leave out of every trace, or of one: lines FROM,TO in seconds since its start, and perhaps ,WHY
     ///
     /// For manual operation, jams and emergency stops, which are no evidence of how the machine works.
-    #[arg(long, value_name = "FILE")]
-    pub mask: Option<PathBuf>,
+    #[arg(long, value_name = "[TRACE=]FILE")]
+    pub mask: Vec<String>,
     /// Prints the result as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
@@ -99,13 +99,10 @@ struct Heard<'a> {
 /// Does what was asked.
 pub fn run(arguments: &LocateArguments) -> Result<Answer, Failure> {
     let plant = model::load(&arguments.model)?;
-    let masks = match &arguments.mask {
-        Some(path) => masks(path)?,
-        None => Vec::new(),
-    };
+    let masks = Masks::read(&arguments.mask, &arguments.traces.iter().collect::<Vec<_>>())?;
     let mut recordings = Vec::new();
     for path in &arguments.traces {
-        let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks);
+        let recording = Recording::read(&plant, &path.to_string_lossy(), open(path)?, &masks.of(path));
         recordings.extend(segments(&plant, recording.map_err(|error| Failure::of(&error))?));
     }
     let study = Study::new(&plant, &recordings).map_err(|error| Failure::of(&error))?;
@@ -129,11 +126,48 @@ pub(super) fn open(path: &Path) -> Result<Reader<BufReader<File>>, Failure> {
     Reader::new(path.to_string_lossy(), BufReader::with_capacity(1 << 16, file)).map_err(|error| Failure::of(&error))
 }
 
-pub(super) fn masks(path: &Path) -> Result<Vec<Span>, Failure> {
+fn masks(path: &Path) -> Result<Vec<Span>, Failure> {
     let fail =
         |error: &dyn std::fmt::Display| Failure(format!("error: failed to read the mask {}: {error}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| fail(&error))?;
     read_mask(&text).map_err(|error| fail(&error))
+}
+
+/// Spans to leave out: of every trace, or of the one that is named.
+#[derive(Default)]
+pub(super) struct Masks {
+    of_all: Vec<Span>,
+    of_one: Vec<(PathBuf, Vec<Span>)>,
+}
+
+impl Masks {
+    /// Reads `[TRACE=]FILE`, each of them; a trace that is named has to be among `traces`.
+    pub fn read(asked: &[String], traces: &[&PathBuf]) -> Result<Masks, Failure> {
+        let mut all = Masks::default();
+        for asked in asked {
+            match asked.split_once('=') {
+                // A file's own name may hold the sign.
+                Some((trace, file)) if !Path::new(asked).exists() => {
+                    if !traces.iter().any(|path| *path == Path::new(trace)) {
+                        let known: Vec<_> = traces.iter().map(|path| path.display().to_string()).collect();
+                        return Err(Failure(format!(
+                            "error: --mask {asked}: {trace:?} is none of the traces; expected one of {}, or a file for all of them",
+                            known.join(", ")
+                        )));
+                    }
+                    all.of_one.push((trace.into(), masks(Path::new(file))?));
+                }
+                _ => all.of_all.extend(masks(Path::new(asked))?),
+            }
+        }
+        Ok(all)
+    }
+
+    /// The spans to leave out of a trace.
+    pub fn of(&self, trace: &Path) -> Vec<Span> {
+        let own = self.of_one.iter().filter(|(path, _)| path == trace).flat_map(|(_, spans)| spans);
+        self.of_all.iter().chain(own).copied().collect()
+    }
 }
 
 /// The whole plant under the same commands.
@@ -261,4 +295,38 @@ fn own_text(own: &[&Located]) -> String {
     }
     out.push('\n');
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mask_is_for_all_traces_or_for_the_one_it_names() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, text).expect("a file");
+            path.display().to_string()
+        };
+        let (all, one) = (file("all.csv", "1,2,a jam\n"), file("a=b.csv", "5,7\n"));
+        let traces = [PathBuf::from("mon.cps.jsonl"), PathBuf::from("tue.cps.jsonl")];
+        let known: Vec<&PathBuf> = traces.iter().collect();
+        let read = |asked: &[&str]| {
+            let asked: Vec<String> = asked.iter().map(|asked| (*asked).to_owned()).collect();
+            Masks::read(&asked, &known).map_err(|failure| failure.0)
+        };
+        let spans = |masks: &Masks, at: usize| masks.of(&traces[at]).iter().map(|span| span.from).collect::<Vec<_>>();
+        let masks = read(&[&all, &format!("tue.cps.jsonl={one}")]).expect("masks");
+        assert_eq!((spans(&masks, 0), spans(&masks, 1)), (vec![1.0], vec![1.0, 5.0]));
+        let for_all = read(&[&one]).expect("a file whose own name holds the sign");
+        assert_eq!(spans(&for_all, 0), [5.0]);
+        let wrong = read(&[&format!("wed.cps.jsonl={all}")]).err().expect("no such trace");
+        assert!(
+            wrong.contains("\"wed.cps.jsonl\" is none of the traces; expected one of mon.cps.jsonl, tue"),
+            "{wrong}"
+        );
+        let absent = read(&["mon.cps.jsonl=nowhere.csv"]).err().expect("no such file");
+        assert!(absent.contains("failed to read the mask nowhere.csv"), "{absent}");
+    }
 }

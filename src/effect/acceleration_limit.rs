@@ -69,6 +69,28 @@ mod tests {
     }
 
     #[test]
+    fn an_ideal_axis_catches_up_with_a_target_that_runs() {
+        // From rest, behind a target of r = 0.1 m/s: it falls back by r²/2a in r/a while it comes up to that speed, and makes
+        // that up by √2·r/a of going faster and slower again.
+        let (rate, limit) = (0.1_f64, 0.5);
+        let limited = [spec("actuator", "acceleration-limit", None, &[("limit", limit)])];
+        let mut axis = with("ServoAxis", &[("mode", "ideal")], &limited);
+        let mut farthest = 0.0_f64;
+        for step in 1..=600_u32 {
+            let target = rate * 1e-3 * f64::from(step);
+            axis.check(&[("positionTarget", target)], 1e-3, &[]);
+            // As the target will be when the millisecond is over.
+            let behind = target + rate * 1e-3 - axis.report("position");
+            farthest = farthest.max(behind);
+            if f64::from(step) * 1e-3 > (1.0 + 2.0_f64.sqrt()) * rate / limit + 5e-3 {
+                assert!(behind.abs() < 1e-5, "{step}: {behind}");
+                assert!((axis.report("velocity") - rate).abs() < 1e-3, "{step}: {}", axis.report("velocity"));
+            }
+        }
+        assert!((farthest - rate * rate / (2.0 * limit)).abs() < 3e-4, "{farthest}");
+    }
+
+    #[test]
     fn it_only_lowers() {
         let limit = [spec("actuator", "acceleration-limit", None, &[("limit", 5.0)])];
         let run = [("velocityTarget", 0.5), ("motorDirection", 1.0)];

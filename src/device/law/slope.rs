@@ -55,6 +55,11 @@ impl Slope {
         if self.lasts() > 0.0 { (self.value - self.before) / self.interval } else { 0.0 }
     }
 
+    /// How far a motion at that speed would have gone since the last jump.
+    pub fn lead(&self) -> f64 {
+        if self.lasts() > 0.0 { self.rate() * self.age } else { 0.0 }
+    }
+
     /// For how long the present speed lasts if no jump comes, s; 0 if it is 0 and stays so.
     pub fn lasts(&self) -> f64 {
         let rest = PATIENCE * self.interval - self.age;

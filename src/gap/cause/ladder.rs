@@ -134,7 +134,7 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let excess = standing.excess(below.cost);
     let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
-    let Some((next, subject)) = choose(bench, &weighed, &below, &rivals) else { return false };
+    let choices = choose(bench, &weighed, &below, &rivals);
     let gain = |trial: &Trial| below.cost - trial.cost;
     let most = rivals.first().map_or(0.0, gain);
     let near = rivals.iter().filter(|trial| gain(trial) > NEAR_THE_BEST * most);
@@ -142,13 +142,16 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if below.set.is_empty() {
         ladder.singles = rivals;
     }
-    let is_worth_it = is_worth_having(&bench.with(&subject), &below, &next, ladder);
-    if is_worth_it {
-        (ladder.best, ladder.subject) = (next, subject);
-    } else if below.set.is_empty() {
-        ladder.too_few_blocks = too_few_blocks(&bench.with(&subject), &below, &next, ladder);
+    // Of two that explain about as much, one may do so all along and the other in a few moments.
+    let worth = choices.iter().position(|(next, subject)| is_worth_having(&bench.with(subject), &below, next, ladder));
+    if let Some(place) = worth {
+        (ladder.best, ladder.subject) = choices.into_iter().nth(place).expect("the place of one of them");
+        return true;
     }
-    is_worth_it
+    if let (true, Some((next, subject))) = (below.set.is_empty(), choices.first()) {
+        ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
+    }
+    false
 }
 
 /// How a trial's deviance stands to where nothing is wrong.
@@ -197,16 +200,19 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
     (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
 }
 
+/// What share of the best one's gain one has to have that is taken where the best is not sure.
+const NEARLY_THE_BEST: f64 = 0.8;
+
 /// The best of the rung, refitted with everything free: what costs least, where a further parameter and a nominal parameter that
-/// is wrong have to be worth it; with the device as it weighs it.
-fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Option<(Trial, Subject)> {
+/// is wrong have to be worth it; with the device as it weighs it. After it those that are nearly as good.
+fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Vec<(Trial, Subject)> {
     // What remembers itself is what a trial leaves, and not what another does.
     let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * trial.inflation();
     let mut order: Vec<&Trial> = rivals.iter().collect();
     order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
     let mut first: Vec<&Trial> = order.into_iter().take(3).collect();
     // Weighed by what no effect leaves, one that leaves nothing may seem not to be worth its parameters.
-    let closest = rivals.iter().min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let Some(closest) = rivals.iter().min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return Vec::new() };
     if !first.iter().any(|trial| std::ptr::eq(*trial, closest)) {
         first.push(closest);
     }
@@ -217,15 +223,19 @@ fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial
         weighed.trial(&trial.set, trial.at.clone()).map_or(f64::INFINITY, |trial| trial.cost)
     };
     let left: Vec<f64> = settled.iter().map(left).collect();
-    let closest = (0..settled.len()).min_by(|a, b| left[*a].total_cmp(&left[*b]))?;
+    let Some(closest) = (0..settled.len()).min_by(|a, b| left[*a].total_cmp(&left[*b])) else { return Vec::new() };
     let common = bench.with(&settled[closest].1);
     let score = |(trial, _): &(Trial, Subject)| {
         let scored = common.trial(&trial.set, trial.at.clone());
         scored.map_or(f64::INFINITY, |scored| handicapped(&scored))
     };
     let scores: Vec<f64> = settled.iter().map(score).collect();
-    let best = (0..settled.len()).min_by(|a, b| scores[*a].total_cmp(&scores[*b]))?;
-    settled.into_iter().nth(best)
+    let without = common.trial(&below.set, below.at.clone()).map_or(f64::INFINITY, |below| below.cost);
+    let mut scored: Vec<(f64, (Trial, Subject))> = scores.into_iter().zip(settled).collect();
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let best = scored[0].0;
+    let is_near = |score: f64| score == best || without - score >= NEARLY_THE_BEST * (without - best);
+    scored.into_iter().filter(|(score, _)| is_near(*score)).map(|(_, settled)| settled).collect()
 }
 
 /// Refits a trial with everything free, the device weighed by what the trial leaves, until that is one.
