@@ -59,12 +59,12 @@ pub(super) struct Layout {
 
 impl Layout {
     pub fn new(map: &SignalMap) -> Layout {
-        let mut layout = Layout { places: Vec::new(), reports: Vec::new(), high: Vec::new(), low: Vec::new() };
-        let [mut commands, mut reports] = [0; 2];
+        let mut places = Vec::with_capacity(map.signals().len());
+        let [mut of_commands, mut of_reports] = [0; 2];
         for (index, signal) in map.signals().iter().enumerate() {
             let next = match signal.direction {
-                Direction::Command => &mut commands,
-                Direction::Report => &mut reports,
+                Direction::Command => &mut of_commands,
+                Direction::Report => &mut of_reports,
             };
             let place = Place {
                 id: RegisterId(index as u32),
@@ -76,15 +76,16 @@ impl Layout {
                 rate: signal.rate,
             };
             *next += place.words;
-            layout.places.push(place);
-            if place.direction == Direction::Report {
-                layout.reports.push(place);
-                if place.kind == Kind::Level {
-                    layout.levels_mut(place.rate).push(place);
-                }
-            }
+            places.push(place);
         }
-        layout
+        let is_report = |place: &&Place| place.direction == Direction::Report;
+        let reports: Vec<Place> = places.iter().filter(is_report).copied().collect();
+        let levels = |rate| {
+            let is_meant = |place: &&Place| place.kind == Kind::Level && place.rate == rate;
+            reports.iter().filter(is_meant).copied().collect()
+        };
+        let (high, low) = (levels(RateClass::HighFrequency), levels(RateClass::LowFrequency));
+        Layout { places, reports, high, low }
     }
 
     /// The place of command register `id`; `None` if it is none.
@@ -106,13 +107,6 @@ impl Layout {
         match rate {
             RateClass::HighFrequency => &self.high,
             RateClass::LowFrequency => &self.low,
-        }
-    }
-
-    fn levels_mut(&mut self, rate: RateClass) -> &mut Vec<Place> {
-        match rate {
-            RateClass::HighFrequency => &mut self.high,
-            RateClass::LowFrequency => &mut self.low,
         }
     }
 

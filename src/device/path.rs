@@ -51,6 +51,8 @@ pub struct Bounds {
     pub deceleration: f64,
     /// Greatest force or torque either way, N or N·m.
     pub force: f64,
+    /// The time constant with which an ideal axis closes on its target, s; 0: at once, and so of every other drive.
+    pub lag: f64,
 }
 
 /// Friction as a set-valued law: while the axis moves it opposes with `sliding + viscous·|v|`, at rest with any force up to

@@ -1,12 +1,13 @@
 //! `kinetwin.ServoAxis`: one axis under a servo drive, linear or rotary.
 
+use crate::device::law::closing::Closing;
 use crate::device::law::moves;
 use crate::device::law::profile::{Limits, Profile};
 use crate::device::law::servo::{HIGHEST_RATE, Loop, Mechanics, Servo};
 use crate::device::law::slope::Slope;
 use crate::device::law::transition::Transitions;
 use crate::device::path::{Bounds, Moment, Motion, Stages};
-use crate::device::servo_path::{self, Exertion, Nominal};
+use crate::device::servo_path::{self, Exertion, Nominal, Way};
 use crate::device::table::{
     EFFORT, LENGTH, LONGEST_M, LONGEST_S, SPEED, TIME, TRAVEL, choice, measure, number, switch, target,
 };
@@ -164,7 +165,7 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
     }
     let position_target = Slope::default();
     let free = f64::INFINITY;
-    let bounds = Bounds { velocity: free, acceleration: free, deceleration: free, force: drive.limit };
+    let bounds = Bounds { velocity: free, acceleration: free, deceleration: free, force: drive.limit, lag: 0.0 };
     Ok(Box::new(ServoAxis {
         mode,
         position_target,
@@ -324,7 +325,7 @@ impl ServoAxis {
     fn move_by(&mut self, stages: &mut Stages, moment: Moment, span: f64) -> f64 {
         let moment = Moment { span, ..moment };
         let ServoAxis { servo, nominal, exertion, transitions, .. } = self;
-        servo_path::advance(servo, nominal, exertion, stages, transitions, moment);
+        Way { servo, nominal, exertion, stages, transitions }.advance(moment);
         span
     }
 
@@ -380,7 +381,11 @@ impl ServoAxis {
         let bounds = servo_path::bounds(stages, &self.nominal, before, moment);
         let error = self.position_target.value() - before.position;
         let error = stages.actuator.reference(error, before, moment);
-        if bounds.acceleration.is_finite() {
+        if bounds.lag > 0.0 {
+            let closing =
+                Closing { time_constant: bounds.lag, velocity: bounds.velocity, acceleration: bounds.acceleration };
+            self.tracked = closing.after(before, before.position + error, moment.span);
+        } else if bounds.acceleration.is_finite() {
             let target = &self.position_target;
             let target = Motion { position: before.position + error + target.lead(), velocity: target.rate() };
             self.tracked = pursued(bounds, before, target, moment.span);

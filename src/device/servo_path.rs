@@ -28,6 +28,7 @@ pub(super) fn bounds(stages: &mut Stages, nominal: &Nominal, motion: Motion, mom
         acceleration: f64::INFINITY,
         deceleration: f64::INFINITY,
         force: nominal.drive.limit,
+        lag: 0.0,
     };
     stages.actuator.bounds(bounds, motion, moment)
 }
@@ -40,89 +41,86 @@ pub(super) struct Exertion {
     pub passed: f64,
 }
 
-/// Moves `servo` by the stretch that ends at `moment`.
-pub(super) fn advance(
-    servo: &mut Servo,
-    nominal: &Nominal,
-    exertion: &mut Exertion,
-    stages: &mut Stages,
-    transitions: &mut Transitions,
-    moment: Moment,
-) {
-    let mut rest = moment.span;
-    while rest > 0.0 {
-        let span = if stages.shapes_effort() { rest.min(EFFORT_STRETCH_S) } else { rest };
-        rest -= span;
-        let part = Moment { now: moment.now - rest, span };
-        let taken = stretch(servo, nominal, exertion, stages, transitions, part);
-        rest += span - taken;
-    }
+/// An axis on its way: what moves, and what stands in its path.
+pub(super) struct Way<'a> {
+    pub servo: &'a mut Servo,
+    pub nominal: &'a Nominal,
+    pub exertion: &'a mut Exertion,
+    pub stages: &'a mut Stages,
+    pub transitions: &'a mut Transitions,
 }
 
-/// Moves by at most `moment.span`, no further than to where the motion comes to rest; returns how long that took.
-///
-/// A drive of which only a share s reaches the axis moves it as a whole drive would move 1/s of everything that resists:
-/// s·F = M·dv/dt + R is F = (M/s)·dv/dt + R/s. So the loop's own law stays exact.
-fn stretch(
-    servo: &mut Servo,
-    nominal: &Nominal,
-    exertion: &mut Exertion,
-    stages: &mut Stages,
-    transitions: &mut Transitions,
-    moment: Moment,
-) -> f64 {
-    let motion = Motion { position: servo.position(), velocity: servo.velocity() };
-    let Mechanics { inertia, viscous_friction, load, pendulum } = nominal.mechanics;
-    let burden = stages.load.burden(Burden { inertia, force: load }, motion, moment);
-    let burden = stages.transmission.burden(burden, motion, moment);
-    let bare = Mechanics { inertia: burden.inertia, viscous_friction, load: burden.force, pendulum };
-    servo.burden(bare);
-    let share = stages.actuator.strength(servo.force());
-    bound(servo, exertion.bounds, share, moment.span);
-    let effort = servo.force();
-    // What the motor's own voltage takes never reaches the gears.
-    let lost = servo.back_emf() * motion.velocity;
-    let opposing = servo.resistance() - viscous_friction * motion.velocity - lost;
-    let passed = if stages.shapes_effort() {
-        let acceleration = (share * exertion.passed - servo.resistance()) / burden.inertia;
-        // What was commanded since then jumped.
-        stages.actuator.effort(effort, Moment { now: moment.now - moment.span, span: 0.0 });
-        let ahead = servo.force_after(moment.span, if motion.velocity == 0.0 { 0.0 } else { acceleration });
-        stages.actuator.effort(ahead, moment)
-    } else {
-        effort
-    };
-    exertion.passed = passed;
-    // What is left of the drive's force against the load.
-    let driving = share * (passed - lost) - opposing;
-    let base = Friction { sliding: 0.0, sticking: 0.0, viscous: viscous_friction };
-    let transmitted = (share * (passed - lost)).abs() + opposing.abs();
-    let friction = stages.mechanics.friction(base, motion, Effort { net: driving, transmitted });
-    if motion.velocity == 0.0 && driving.abs() <= friction.sticking {
-        servo.wait(moment.span);
-        return moment.span;
+impl Way<'_> {
+    /// Moves the axis by the stretch that ends at `moment`.
+    pub fn advance(&mut self, moment: Moment) {
+        let mut rest = moment.span;
+        while rest > 0.0 {
+            let span = if self.stages.shapes_effort() { rest.min(EFFORT_STRETCH_S) } else { rest };
+            rest -= span;
+            let taken = self.stretch(Moment { now: moment.now - rest, span });
+            rest += span - taken;
+        }
     }
-    let way = if motion.velocity == 0.0 { driving.signum() } else { motion.velocity.signum() };
-    let mut mover = *servo;
-    mover.burden(Mechanics {
-        inertia: bare.inertia / share,
-        viscous_friction: friction.viscous / share,
-        load: (bare.load + way * friction.sliding) / share,
-        pendulum: pendulum / share,
-    });
-    if stages.shapes_effort() {
-        mover.open(passed);
-        servo.wait(moment.span);
-    }
-    let may_stick = friction.sliding.max(friction.sticking) > 0.0;
-    let taken = until_rest(&mut mover, transitions, way, may_stick, moment.span);
-    if stages.shapes_effort() {
-        servo.follow(&mover);
-    } else {
-        *servo = mover;
+
+    /// Moves by at most `moment.span`, no further than to where the motion comes to rest; returns how long that took.
+    ///
+    /// A drive of which only a share s reaches the axis moves it as a whole drive would move 1/s of everything that resists:
+    /// s·F = M·dv/dt + R is F = (M/s)·dv/dt + R/s. So the loop's own law stays exact.
+    fn stretch(&mut self, moment: Moment) -> f64 {
+        let Way { servo, nominal, exertion, stages, transitions } = self;
+        let motion = Motion { position: servo.position(), velocity: servo.velocity() };
+        let Mechanics { inertia, viscous_friction, load, pendulum } = nominal.mechanics;
+        let burden = stages.load.burden(Burden { inertia, force: load }, motion, moment);
+        let burden = stages.transmission.burden(burden, motion, moment);
+        let bare = Mechanics { inertia: burden.inertia, viscous_friction, load: burden.force, pendulum };
         servo.burden(bare);
+        let share = stages.actuator.strength(servo.force());
+        bound(servo, exertion.bounds, share, moment.span);
+        let effort = servo.force();
+        // What the motor's own voltage takes never reaches the gears.
+        let lost = servo.back_emf() * motion.velocity;
+        let opposing = servo.resistance() - viscous_friction * motion.velocity - lost;
+        let passed = if stages.shapes_effort() {
+            let acceleration = (share * exertion.passed - servo.resistance()) / burden.inertia;
+            // What was commanded since then jumped.
+            stages.actuator.effort(effort, Moment { now: moment.now - moment.span, span: 0.0 });
+            let ahead = servo.force_after(moment.span, if motion.velocity == 0.0 { 0.0 } else { acceleration });
+            stages.actuator.effort(ahead, moment)
+        } else {
+            effort
+        };
+        exertion.passed = passed;
+        // What is left of the drive's force against the load.
+        let driving = share * (passed - lost) - opposing;
+        let base = Friction { sliding: 0.0, sticking: 0.0, viscous: viscous_friction };
+        let transmitted = (share * (passed - lost)).abs() + opposing.abs();
+        let friction = stages.mechanics.friction(base, motion, Effort { net: driving, transmitted });
+        if motion.velocity == 0.0 && driving.abs() <= friction.sticking {
+            servo.wait(moment.span);
+            return moment.span;
+        }
+        let way = if motion.velocity == 0.0 { driving.signum() } else { motion.velocity.signum() };
+        let mut mover = **servo;
+        mover.burden(Mechanics {
+            inertia: bare.inertia / share,
+            viscous_friction: friction.viscous / share,
+            load: (bare.load + way * friction.sliding) / share,
+            pendulum: pendulum / share,
+        });
+        if stages.shapes_effort() {
+            mover.open(passed);
+            servo.wait(moment.span);
+        }
+        let may_stick = friction.sliding.max(friction.sticking) > 0.0;
+        let taken = until_rest(&mut mover, transitions, way, may_stick, moment.span);
+        if stages.shapes_effort() {
+            servo.follow(&mover);
+        } else {
+            **servo = mover;
+            servo.burden(bare);
+        }
+        taken
     }
-    taken
 }
 
 /// Limits the drive's force, also so that it accelerates the axis no more than it may: F ≤ M·a + R in the way it drives,

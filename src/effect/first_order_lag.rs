@@ -1,12 +1,14 @@
 //! `first-order-lag`: what the drive does follows what it should do as a first-order lag:
-//! time_constant · dy/dt + y = x, applied to position and velocity alike; on a servo axis with forces, to its force.
+//! time_constant · dy/dt + y = x, applied to position and velocity alike; on a servo axis with forces, to its force. An ideal
+//! axis closes on its target by a position loop, which is that lag as long as the drive's limits allow it
+//! ([`Closing`](crate::device::law::closing::Closing)).
 //!
 //! Source: the first-order lag of linear control theory (K. J. Åström, T. Hägglund, Advanced PID Control, ISA 2006,
 //! section 2.4). Over a stretch the position is taken to be a parabola, velocity and force a straight line; for these the
 //! solution is exact.
 
 use super::table::{BASE, time};
-use crate::device::path::{Moment, Motion, Stage};
+use crate::device::path::{Bounds, Moment, Motion, Stage};
 use crate::effect::{Build, EffectDescriptor};
 use crate::plant::EffectPlace;
 
@@ -19,13 +21,36 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     places: &[EffectPlace::Actuator],
     parameters: &[time("time_constant", 0.05, "time after which 63 % of a step have been followed")],
     excited_by: "changes of speed",
-    build: Build::Stage(|values, _| {
-        Box::new(FirstOrderLag { time_constant: values[0], last: None, force: (0.0, 0.0) })
+    build: Build::Stage(|values, site| match site.is_ideal() {
+        true => Box::new(PositionLoop { time_constant: values[0] }),
+        false => Box::new(FirstOrderLag { time_constant: values[0], last: None, force: (0.0, 0.0) }),
     }),
     ..BASE
 };
 
-/// The lag and where it is.
+/// The lag of an ideal axis.
+#[derive(Clone, Debug)]
+struct PositionLoop {
+    time_constant: f64,
+}
+
+impl Stage for PositionLoop {
+    fn boxed(&self) -> Box<dyn Stage> {
+        Box::new(self.clone())
+    }
+
+    fn stretch(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn bounds(&mut self, bounds: Bounds, _motion: Motion, _moment: Moment) -> Bounds {
+        Bounds { lag: bounds.lag + self.time_constant, ..bounds }
+    }
+
+    fn state(&self, _visit: &mut dyn FnMut(f64)) {}
+}
+
+/// The lag of any other drive, and where it is.
 #[derive(Clone, Debug)]
 struct FirstOrderLag {
     time_constant: f64,
@@ -147,6 +172,18 @@ mod tests {
             assert!((output.position - (now * now - 0.1 * now + 0.005 * rest)).abs() < 1e-12, "at {now}");
             assert!((output.velocity - (2.0 * now - 0.1 * rest)).abs() < 1e-12, "at {now}");
         }
+    }
+
+    #[test]
+    fn an_ideal_axis_lags_within_its_limits() {
+        let ideal = [("mode", "ideal")];
+        let lag = spec("actuator", "first-order-lag", None, &[("time_constant", 0.1)]);
+        let mut axis = with("ServoAxis", &ideal, std::slice::from_ref(&lag));
+        axis.check(&[("positionTarget", 1.0)], 0.1, &[("position", 1.0 - (-1.0_f64).exp())]);
+        // 0.8 m at 2 m/s, then what is left decays; a filter of what the limit leaves would be at 0.86 m.
+        let limit = spec("actuator", "velocity-limit", None, &[("limit", 2.0)]);
+        let mut axis = with("ServoAxis", &ideal, &[lag, limit]);
+        axis.check(&[("positionTarget", 1.0)], 0.5, &[("position", 1.0 - 0.2 * (-1.0_f64).exp())]);
     }
 
     #[test]

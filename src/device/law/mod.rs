@@ -2,6 +2,7 @@
 //!
 //! A device strings them along its signal path: command → actuator → mechanics → transmission → load → sensor → report.
 
+pub mod closing;
 pub mod drive;
 pub mod encoder;
 pub mod profile;

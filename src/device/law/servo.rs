@@ -17,6 +17,8 @@
 //! The motion is computed by its Taylor series from one change of regime (a limit taken or left) to the next, so that it
 //! is exact whatever the span: see [`super::taylor`].
 
+use nalgebra::Vector3;
+
 use super::taylor::{ORDER, RECIPROCALS, Series, order_for};
 use super::transition::{Linear, Transitions};
 
@@ -248,12 +250,12 @@ impl Servo {
         let (damping, rate) = (self.damping(), self.rate);
         let linear = Linear { span: seconds, position_gain, velocity_gain, damping, inertia, reset, rate };
         let demand = self.demand();
-        let slopes = [self.velocity, self.acceleration(), (self.force() - self.integral) * reset];
+        let slopes = Vector3::new(self.velocity, self.acceleration(), (self.force() - self.integral) * reset);
         let Some(known) = transitions.of(linear) else { return false };
         if !known.keeps_within(limit - demand.abs(), slopes) {
             return false;
         }
-        let [position, velocity, integral] = known.change(slopes);
+        let [position, velocity, integral] = known.change(slopes).into();
         self.position += position;
         self.velocity += velocity;
         self.integral += integral;

@@ -9,6 +9,8 @@
 //! (C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Transactions on Automatic Control 23, 1978.)
 //! Φ depends on the loop and on t alone, and a machine is looked at and told at spans that hardly change.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::taylor::ORDER;
 
 /// How many spans are known at once: a command between two looks makes two, and a stage may have a loop of its own.
@@ -41,11 +43,11 @@ struct Known {
 /// Φ of a loop over a span.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Transition {
-    integral: [[f64; 3]; 3],
+    integral: Matrix3<f64>,
     /// How far the loop's demand moves within the span, at most, for each unit of [`Transition::size`] of y'(0).
     spread: f64,
     /// The scales of velocity, acceleration and the integrator's rate in that.
-    scales: [f64; 3],
+    scales: Vector3<f64>,
 }
 
 /// The transitions of the spans that came last.
@@ -75,54 +77,42 @@ impl Transitions {
 impl Transition {
     fn new(linear: &Linear) -> Transition {
         let Linear { span, position_gain, velocity_gain, damping, inertia, reset, rate } = *linear;
-        let matrix = [
-            [0.0, 1.0, 0.0],
-            [-position_gain / inertia, -(velocity_gain + damping) / inertia, 1.0 / inertia],
-            [-position_gain * reset, -velocity_gain * reset, 0.0],
-        ];
+        let matrix = Matrix3::new(
+            0.0,
+            1.0,
+            0.0,
+            -position_gain / inertia,
+            -(velocity_gain + damping) / inertia,
+            1.0 / inertia,
+            -position_gain * reset,
+            -velocity_gain * reset,
+            0.0,
+        );
         // Horner's rule from the smallest term on: Φ = t·(1 + A·t/2·(1 + A·t/3·(…))).
-        let mut integral = IDENTITY;
-        for k in (2..=ORDER).rev() {
-            integral = plus_identity(scaled(&product(&matrix, &integral), span / k as f64));
-        }
+        let one = Matrix3::identity();
+        let integral = (2..=ORDER).rev().fold(one, |sum, k| one + matrix * sum * (span / k as f64)) * span;
         // Of y'(s) = exp(A·s)·y'(0), each component in its scale is at most exp(ν·s) times the largest at first, with ν the
         // greatest row sum of A in those scales; the demand's rate is −gx·v − gv·a + di/dt.
-        let scales = [1.0, 1.0 / rate, 1.0 / (inertia * rate * rate)];
-        let bound =
-            |row: usize| -> f64 { (0..3).map(|column| matrix[row][column].abs() * scales[row] / scales[column]).sum() };
-        let growth = (0..3).map(bound).fold(0.0, f64::max) * span;
-        let slope = position_gain / scales[0] + velocity_gain / scales[1] + 1.0 / scales[2];
-        Transition { integral: scaled(&integral, span), spread: span * slope * growth.exp(), scales }
+        let scales = Vector3::new(1.0, 1.0 / rate, 1.0 / (inertia * rate * rate));
+        let inverse = scales.map(f64::recip);
+        let growth = (Matrix3::from_diagonal(&scales) * matrix.abs() * inverse).max() * span;
+        let slope = Vector3::new(position_gain, velocity_gain, 1.0).dot(&inverse);
+        Transition { integral, spread: span * slope * growth.exp(), scales }
     }
 
     /// Whether a demand that may move by `margin` either way stays within that all along, where y'(0) is `slopes`.
-    pub fn keeps_within(&self, margin: f64, slopes: [f64; 3]) -> bool {
+    pub fn keeps_within(&self, margin: f64, slopes: Vector3<f64>) -> bool {
         self.spread * self.size(slopes) < margin
     }
 
-    fn size(&self, slopes: [f64; 3]) -> f64 {
-        slopes.iter().zip(&self.scales).map(|(slope, scale)| slope.abs() * scale).fold(0.0, f64::max)
+    fn size(&self, slopes: Vector3<f64>) -> f64 {
+        slopes.component_mul(&self.scales).amax()
     }
 
     /// What is added to y, where y'(0) is `slopes`.
-    pub fn change(&self, slopes: [f64; 3]) -> [f64; 3] {
-        self.integral.map(|row| row[0] * slopes[0] + row[1] * slopes[1] + row[2] * slopes[2])
+    pub fn change(&self, slopes: Vector3<f64>) -> Vector3<f64> {
+        self.integral * slopes
     }
-}
-
-const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    a.map(|row| [0, 1, 2].map(|column| (0..3).map(|k| row[k] * b[k][column]).sum()))
-}
-
-fn scaled(matrix: &[[f64; 3]; 3], factor: f64) -> [[f64; 3]; 3] {
-    matrix.map(|row| row.map(|entry| entry * factor))
-}
-
-fn plus_identity(mut matrix: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    (0..3).for_each(|k| matrix[k][k] += 1.0);
-    matrix
 }
 
 #[cfg(test)]
@@ -159,7 +149,7 @@ mod tests {
         let spring =
             Linear { position_gain: omega * omega * 20.0, velocity_gain: 0.0, damping: 0.0, reset: 0.0, ..LOOP };
         let (sine, cosine) = (omega * 0.002).sin_cos();
-        let [dx, dv, di] = Transition::new(&spring).change([3.0, 7.0, 0.0]);
+        let [dx, dv, di] = Transition::new(&spring).change(Vector3::new(3.0, 7.0, 0.0)).into();
         assert!((dx - 3.0 * sine / omega - 7.0 * (1.0 - cosine) / (omega * omega)).abs() < 1e-17, "{dx}");
         assert!((dv - 3.0 * (cosine - 1.0) - 7.0 * sine / omega).abs() < 1e-15, "{dv}");
         assert_eq!(di, 0.0);
@@ -169,12 +159,14 @@ mod tests {
     fn a_demand_stays_within_its_bound() {
         let whole = Transition::new(&LOOP);
         let mut tightest = 0.0_f64;
-        for slopes in [[0.5, -20.0, 300.0], [-0.1, 0.0, -5000.0], [0.0, 90.0, 0.0], [1.0, 90.0, -150_000.0]] {
+        for slopes in
+            [[0.5, -20.0, 300.0], [-0.1, 0.0, -5000.0], [0.0, 90.0, 0.0], [1.0, 90.0, -150_000.0]].map(Vector3::from)
+        {
             let greatest = whole.spread * whole.size(slopes);
             let demand = |[x, v, i]: [f64; 3]| i - LOOP.position_gain * x - LOOP.velocity_gain * v;
             let moved = (1..=64).map(|part| {
                 let span = LOOP.span * f64::from(part) / 64.0;
-                demand(Transition::new(&Linear { span, ..LOOP }).change(slopes)).abs()
+                demand(Transition::new(&Linear { span, ..LOOP }).change(slopes).into()).abs()
             });
             let farthest = moved.fold(0.0, f64::max);
             assert!(farthest <= greatest, "{farthest} of {greatest}");
