@@ -131,7 +131,7 @@ fn weigh(bench: &Bench<'_>, ladder: &Ladder, mut answer: Answer) -> Answer {
     let trials: Vec<&Trial> =
         std::iter::once(best).chain(rivals.iter().map(|at| &answer.alternatives[*at].trial)).collect();
     // On blocks that their parameters did not see; where the answer is wanted now, on all.
-    let costs = |trial: &&Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
+    let costs = |trial: &&Trial| unseen(bench, trial, ladder.folds).unwrap_or_else(|| trial.blocks.clone());
     let scaled: Vec<Vec<f64>> =
         trials.iter().map(|trial| costs(trial).into_iter().map(|cost| cost / inflation).collect()).collect();
     let blocks: Vec<&[f64]> = scaled.iter().map(Vec::as_slice).collect();

@@ -5,13 +5,14 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::rung::rung;
-use super::unseen::unseen;
+use super::two::step_by_two;
+use super::unseen::{Folds, unseen};
 use crate::gap::fit::Effort;
 use crate::gap::statistics::{Draws, least_gain, quantile};
 use crate::gap::{Prediction, Score, Subject, THRESHOLD, evidence};
 
 /// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
-const MOST_EFFECTS: usize = 6;
+pub const MOST_EFFECTS: usize = 6;
 /// Of the excess, what an effect must explain at least: the lower bound of it.
 const LEAST_SHARE: f64 = 0.03;
 /// The same of what the effects before it leave.
@@ -55,6 +56,8 @@ pub struct Ladder {
     pub tried: usize,
     /// In how many blocks of time the gap lies that an effect would explain, where they are too few to be sure of it.
     pub too_few_blocks: Option<f64>,
+    /// On which blocks that were not seen an effect has to be worth having.
+    pub folds: Folds,
 }
 
 impl Ladder {
@@ -92,18 +95,24 @@ pub fn climb(
         near: vec![],
         tried: 0,
         too_few_blocks: None,
+        folds: Folds::Long,
     };
     if evidence(bench.subject, &prediction) <= THRESHOLD {
         return Some(ladder);
     }
     ladder.subject = bench.subject.tolerant(&prediction);
     ladder.best = bench.with(&ladder.subject).trial(&[], ladder.bare.at.clone())?;
-    while ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
-        if !step(bench, &mut ladder, is_asked, tell) {
+    loop {
+        while ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
+            if !step(bench, &mut ladder, is_asked, tell) {
+                break;
+            }
+        }
+        let is_dropped = drop_idle(bench, &mut ladder);
+        if !is_dropped || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }
     }
-    drop_idle(bench, &mut ladder);
     if ladder.best.set.len() == 1 {
         weigh_singles(bench, &mut ladder);
     }
@@ -173,12 +182,13 @@ impl Standing {
         Standing { floor: floor(score), worst, above }
     }
 
-    fn of_trial(bench: &Bench<'_>, trial: &Trial) -> Option<Standing> {
+    /// As `trial` leaves a device.
+    pub fn of_trial(bench: &Bench<'_>, trial: &Trial) -> Option<Standing> {
         Some(Standing::of(&bench.subject.score(&bench.predict(&trial.set, &trial.at)?)))
     }
 
     /// What `cost` is above the floor, in all or by one signal alone.
-    fn excess(&self, cost: f64) -> f64 {
+    pub fn excess(&self, cost: f64) -> f64 {
         (cost - self.floor.0).max(self.above)
     }
 }
@@ -239,7 +249,7 @@ fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial
 }
 
 /// Refits a trial with everything free, the device weighed by what the trial leaves, until that is one.
-fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: bool) -> Option<(Trial, Subject)> {
+pub fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: bool) -> Option<(Trial, Subject)> {
     const ROUNDS: u32 = 3;
     let (mut trial, mut subject) = (trial.clone(), weighed.subject.clone());
     // Alone and weighed as it is, everything was free already; what a rugged deviance was fitted to was as well.
@@ -286,7 +296,7 @@ pub fn handicap(trial: &Trial, below: usize) -> f64 {
 
 /// Whether `next` gains over `below` more than chance, a share worth having, and moves anything at all. The device is weighed by
 /// what `next` leaves.
-fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+pub fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
     let Some(below) = bench.trial(&below.set, below.at.clone()) else { return false };
     let gain = below.cost - next.cost;
     let further = next.parameters() - below.parameters();
@@ -307,7 +317,7 @@ fn is_a_share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -
     let Some(Standing { floor: (floor, variance), above, .. }) = Standing::of_trial(bench, &bare) else { return false };
     let is_plain = bare.cost - floor > PLAIN * variance.sqrt();
     let draws = Draws::new(below.blocks.len(), DRAWS, 1);
-    let kept_back = |trial: &Trial| unseen(bench, trial).unwrap_or_else(|| trial.blocks.clone());
+    let kept_back = |trial: &Trial| unseen(bench, trial, ladder.folds).unwrap_or_else(|| trial.blocks.clone());
     let (before, after) = (kept_back(below), kept_back(next));
     let surely = |whole: &[f64]| {
         let shares = draws.each(&[whole, &before, &after], |sums| {
@@ -338,11 +348,13 @@ fn gains(before: &[f64], after: &[f64]) -> (f64, f64) {
     (sum, sum * sum / f64::max(squares, f64::MIN_POSITIVE))
 }
 
-/// Takes out what is no longer worth having once the others stand beside it.
-fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) {
+/// Takes out what is no longer worth having once the others stand beside it; whether there was something. Of two of which neither
+/// is worth having without the other, both stay if they are together.
+fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) -> bool {
     let subject = ladder.subject.clone();
     let weighed = bench.with(&subject);
-    let mut place = 0;
+    let whole = ladder.best.clone();
+    let (mut place, mut is_dropped) = (0, false);
     while ladder.best.set.len() > 1 && place < ladder.best.set.len() && !bench.is_stopped() {
         let best = &ladder.best;
         let mut set = best.set.clone();
@@ -353,8 +365,14 @@ fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) {
         at.extend(bench.nominal(&set));
         let without = weighed.fit(&set, &[at], anew(weighed.ranges(&set).len()));
         match without {
-            Some(without) if !is_worth_having(&weighed, &without, best, ladder) => ladder.best = without,
+            Some(without) if !is_worth_having(&weighed, &without, best, ladder) => {
+                (ladder.best, is_dropped) = (without, true);
+            }
             _ => place += 1,
         }
     }
+    if whole.set.len() > ladder.best.set.len() + 1 && is_worth_having(&weighed, &ladder.best, &whole, ladder) {
+        (ladder.best, is_dropped) = (whole, false);
+    }
+    is_dropped
 }

@@ -15,6 +15,7 @@ mod scales;
 mod scan;
 mod starts;
 mod tangent;
+mod two;
 mod unseen;
 
 pub use bare::Bare;

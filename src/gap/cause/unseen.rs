@@ -17,16 +17,27 @@ const FOLDS: usize = 4;
 /// Blocks beside a fold that are used for neither.
 const PURGED: usize = 1;
 
+/// How the recordings are divided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Folds {
+    /// Each fold a long span, so that as far as possible it is another kind of motion than the others.
+    #[default]
+    Long,
+    /// Every fourth block is of one fold: what the machine does in one span alone is seen from that span's other blocks.
+    Short,
+}
+
 /// What each block costs by parameters that did not see it; of a trial without parameters, what it costs. `None` where the answer is
 /// wanted now.
-pub fn unseen(bench: &Bench<'_>, trial: &Trial) -> Option<Vec<f64>> {
+pub fn unseen(bench: &Bench<'_>, trial: &Trial, folds: Folds) -> Option<Vec<f64>> {
     if trial.at.is_empty() {
         return Some(trial.blocks.clone());
     }
     let score = bench.subject.score(&bench.predict(&trial.set, &trial.at)?);
     let places = score.places();
     let fold = |fold: usize| -> Option<Vec<f64>> {
-        let weights: Vec<f64> = places.iter().map(|place| f64::from(u8::from(sees(bench, fold, *place)))).collect();
+        let weights: Vec<f64> =
+            places.iter().map(|place| f64::from(u8::from(sees(bench, (folds, fold), *place)))).collect();
         let residuals = |at: &[f64]| {
             let mut residuals = bench.residuals(&trial.set, at)?;
             residuals.iter_mut().zip(&weights).for_each(|(residual, weight)| *residual *= weight);
@@ -38,24 +49,29 @@ pub fn unseen(bench: &Bench<'_>, trial: &Trial) -> Option<Vec<f64>> {
         let there = bench.subject.score(&bench.predict(&trial.set, &fitted.at)?);
         Some(bench.blocks(&there))
     };
-    let folds: Vec<Vec<f64>> = (0..FOLDS).into_par_iter().map(fold).collect::<Option<_>>()?;
+    let costs: Vec<Vec<f64>> = (0..FOLDS).into_par_iter().map(fold).collect::<Option<_>>()?;
     let runs = bench.subject.runs.iter().map(|run| bench.blocks_of(run));
-    let of_run = runs.flat_map(|blocks| (0..blocks).map(move |block| fold_of(block, blocks)));
-    Some(of_run.enumerate().map(|(block, fold)| folds[fold][block]).collect())
+    let of_run = runs.flat_map(|blocks| (0..blocks).map(move |block| folds.of(block, blocks)));
+    Some(of_run.enumerate().map(|(block, fold)| costs[fold][block]).collect())
 }
 
-/// The fold of a block among so many of its run.
-fn fold_of(block: usize, blocks: usize) -> usize {
-    (block * FOLDS / blocks.max(1)).min(FOLDS - 1)
+impl Folds {
+    /// The fold of a block among so many of its run.
+    fn of(self, block: usize, blocks: usize) -> usize {
+        match self {
+            Folds::Long => (block * FOLDS / blocks.max(1)).min(FOLDS - 1),
+            Folds::Short => block % FOLDS,
+        }
+    }
 }
 
 /// Whether the parameters of a fold are fitted to what lies at a place.
-fn sees(bench: &Bench<'_>, fold: usize, place: Option<(usize, f64)>) -> bool {
+fn sees(bench: &Bench<'_>, (folds, fold): (Folds, usize), place: Option<(usize, f64)>) -> bool {
     let Some((run, at)) = place else { return true };
     let blocks = bench.blocks_of(&bench.subject.runs[run]);
     let block = ((at.max(0.0) / BLOCK_S) as usize).min(blocks - 1);
     let near = block.saturating_sub(PURGED)..=(block + PURGED).min(blocks - 1);
-    near.map(|near| fold_of(near, blocks)).all(|near| near != fold)
+    near.map(|near| folds.of(near, blocks)).all(|near| near != fold)
 }
 
 #[cfg(test)]
@@ -64,8 +80,9 @@ mod tests {
 
     #[test]
     fn folds_lie_side_by_side_and_hold_all() {
-        let folds: Vec<usize> = (0..10).map(|block| fold_of(block, 10)).collect();
-        assert_eq!(folds, [0, 0, 0, 1, 1, 2, 2, 2, 3, 3]);
-        assert_eq!(fold_of(0, 1), 0);
+        let all = |folds: Folds| (0..10).map(|block| folds.of(block, 10)).collect::<Vec<usize>>();
+        assert_eq!(all(Folds::Long), [0, 0, 0, 1, 1, 2, 2, 2, 3, 3]);
+        assert_eq!(all(Folds::Short), [0, 1, 2, 3, 0, 1, 2, 3, 0, 1]);
+        assert_eq!(Folds::Long.of(0, 1), 0);
     }
 }

@@ -1,0 +1,117 @@
+//! Two effects at once, where one that seemed to explain much turned out not to be worth having: it may have stood for two that are.
+//!
+//! A ladder that adds the best effect, then the best beside it, ends where only two together say more. A drive that eases into its
+//! target by a lag and accelerates no faster than it can is one: beside a dead time as long as both take, the lag gains
+//! nothing until the dead time gives way, the acceleration nothing that lasts without the lag, and a limit of speed that is
+//! not there stands for both. So here what each candidate gains is asked with all that was found given free, and the best of them are
+//! stones to step on to a second one.
+//!
+//! Such a motion comes once in many a recording. That no long span without it can predict it is no wonder: from here on an effect has
+//! to be worth having on blocks of the same span that its fit did not see.
+
+use rayon::prelude::*;
+
+use super::bench::{Bench, Trial};
+use super::ladder::{Ladder, MOST_EFFECTS, Standing, Tell, anew, is_worth_having, settle};
+use super::rung::rung;
+use super::unseen::Folds;
+
+/// Of the excess, what must be left.
+const LEAST_LEFT: f64 = 0.1;
+/// How many candidates are stepped on.
+const STONES: usize = 4;
+
+/// Adds two effects to the best set if together they are worth having; whether they were.
+pub fn step_by_two(
+    bench: &Bench<'_>,
+    ladder: &mut Ladder,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    tell: &Tell<'_>,
+) -> bool {
+    let below = ladder.best.clone();
+    if below.set.is_empty() || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
+        return false;
+    }
+    let subject = ladder.subject.clone();
+    let weighed = bench.with(&subject);
+    let Some(standing) = Standing::of_trial(&weighed, &below) else { return false };
+    let Some(bare) = weighed.trial(&[], ladder.bare.at.clone()) else { return false };
+    if standing.excess(below.cost) < LEAST_LEFT * (bare.cost - standing.floor.0) {
+        return false;
+    }
+    let beside = |stone: &Trial| rung(&weighed, stone, standing.excess(stone.cost), is_asked, &|_| true, tell);
+    let alone = beside(&below);
+    let mut free: Vec<Trial> = alone.par_iter().filter_map(|trial| giving_way(&weighed, &below, trial)).collect();
+    free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let pairs: Vec<Trial> = stones(&free).iter().flat_map(beside).collect();
+    ladder.tried += alone.len() + pairs.len();
+    let pair = pairs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let settled = pair.and_then(|pair| settle(bench, &weighed, pair, false)).and_then(|(pair, subject)| {
+        let deeper = deepest(&bench.with(&subject), &pair, below.parameters());
+        settle(bench, &bench.with(&subject), &deeper, false)
+    });
+    let Some((pair, subject)) = settled else { return false };
+    let before = std::mem::replace(&mut ladder.folds, Folds::Short);
+    let is_worth = is_worth_having(&bench.with(&subject), &below, &pair, ladder);
+    match is_worth {
+        true => (ladder.best, ladder.subject) = (pair, subject),
+        false => ladder.folds = before,
+    }
+    is_worth
+}
+
+/// A candidate beside those of `below` with everything free, from near and far: what does nearly what one of them does (a lag, and a
+/// dead time) shows nothing until that gives way.
+fn giving_way(bench: &Bench<'_>, below: &Trial, trial: &Trial) -> Option<Trial> {
+    let candidate = trial.set.last()?;
+    let effort = anew(bench.ranges(&trial.set).len());
+    let count = candidate.starts.len();
+    let mut places = vec![count / 4, count / 2, (3 * count) / 4];
+    places.dedup();
+    let fitted = places.into_iter().filter_map(|place| {
+        let mut at = below.at[..below.parameters()].to_vec();
+        at.extend(&candidate.starts[place]);
+        at.extend(bench.nominal(&trial.set));
+        bench.fit(&trial.set, &[at], effort)
+    });
+    fitted.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// A drive whose speed may not follow its loop swings, and its deviance has false minima side by side along each of its figures: where
+/// one is deeper a little further on, from there downhill. The figures after the first `known` are tried.
+fn deepest(bench: &Bench<'_>, trial: &Trial, known: usize) -> Trial {
+    const FACTORS: [f64; 8] = [0.7, 0.8, 0.87, 0.94, 1.06, 1.13, 1.25, 1.4];
+    const ROUNDS: u32 = 3;
+    let mut best = trial.clone();
+    for _ in 0..ROUNDS {
+        let aside = |place: usize, factor: f64| {
+            let mut at = best.at.clone();
+            let range = best.ranges[place];
+            at[place] = (at[place] * factor).clamp(range.least, range.greatest);
+            bench.trial(&best.set, at)
+        };
+        let places: Vec<usize> = (known..best.parameters()).collect();
+        let tried = places.par_iter().flat_map_iter(|place| FACTORS.map(|factor| aside(*place, factor)));
+        let Some(lower) = tried.flatten().min_by(|a, b| a.cost.total_cmp(&b.cost)) else { break };
+        if bench.is_stopped() || lower.cost >= best.cost {
+            break;
+        }
+        let fitted = bench.fit(&lower.set, std::slice::from_ref(&lower.at), anew(lower.at.len()));
+        best = fitted.filter(|fitted| fitted.cost < lower.cost).unwrap_or(lower);
+    }
+    best
+}
+
+/// Those of the sorted trials that another effect is looked for beside: the first of each kind of effect.
+fn stones(trials: &[Trial]) -> Vec<Trial> {
+    let mut stones: Vec<Trial> = Vec::new();
+    for trial in trials {
+        let Some(candidate) = trial.set.last() else { continue };
+        let is_there = |stone: &Trial| stone.set.last().is_some_and(|other| other.effect.id == candidate.effect.id);
+        let is_one = !candidate.is_parameter_error() && !candidate.free.is_empty();
+        if is_one && stones.len() < STONES && !stones.iter().any(is_there) {
+            stones.push(trial.clone());
+        }
+    }
+    stones
+}
