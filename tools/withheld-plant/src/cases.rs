@@ -277,15 +277,7 @@ impl Bench {
             seed: self.seed ^ Part::Train as u64,
             share: self.tolerance / 3.0_f64.sqrt(),
         };
-        let t0 = std::time::Instant::now();
-        if std::env::var("CLS").is_ok() {
-            eprintln!("TRUTH {quirk:?}");
-        }
-        let class = classes::class(&alone, quirk, Part::Train.seconds());
-        if std::env::var("CLS").is_ok() {
-            eprintln!("CLASS {:.1} s {class:?}", t0.elapsed().as_secs_f64());
-        }
-        class
+        classes::class(&alone, quirk, Part::Train.seconds())
     }
 
     /// The effect with the strength that shows as much as it is to.

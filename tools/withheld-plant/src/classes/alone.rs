@@ -82,7 +82,13 @@ impl Alone<'_> {
             .collect();
         let values = samples.iter().map(|at| streams.iter().map(|stream| stream.at(*at)).collect()).collect();
         let edges = streams.iter().zip(&signals).map(|(stream, signal)| match signal.kind.is_edge() {
-            true => stream.points().to_vec(),
+            // What comes after the last report nobody hears.
+            true => stream
+                .points()
+                .iter()
+                .filter(|(at, _)| samples.last().is_some_and(|last| at <= last))
+                .copied()
+                .collect(),
             false => Vec::new(),
         });
         Heard { values, edges: edges.collect() }

@@ -7,6 +7,9 @@ use crate::plant::{Kind, Signal};
 /// A flag's edge is looked for so near, s.
 const NEAR: f64 = 0.5;
 
+/// One that is not there, or that is one too many, counts as if it were so many cycles late.
+const LOST: f64 = 10.0;
+
 /// The scales of a device's signals.
 pub struct Measure {
     /// By signal; of a flag nothing.
@@ -87,10 +90,10 @@ impl Measure {
                     matched += 1;
                     all.push(self.late(then - at));
                 }
-                None => all.push(self.late(NEAR)),
+                None => all.push(self.late(LOST * self.cycle)),
             }
         }
-        all.push((other.len().saturating_sub(matched) as f64).sqrt() * self.late(NEAR));
+        all.push((other.len().saturating_sub(matched) as f64).sqrt() * self.late(LOST * self.cycle));
     }
 
     /// A flag that is late by a time differs in so many reports, of which each counts 12; below a cycle the square of the time counts, so

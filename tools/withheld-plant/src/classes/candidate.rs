@@ -85,6 +85,7 @@ pub fn candidates(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candid
 }
 
 /// The truth's own kind, to be found again.
+#[cfg(test)]
 pub fn own(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candidate> {
     let is_own = |candidate: &Candidate| candidate.quirk.member() == truth.member();
     all(truth, device, signals).into_iter().filter(is_own).collect()
@@ -93,7 +94,8 @@ pub fn own(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candidate> {
 fn all(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candidate> {
     let axis = axis(truth.component.as_deref().unwrap_or_default());
     let mut found = Vec::new();
-    for entry in ENTRIES.iter().chain(ALSO).filter(|entry| !entry.effect.starts_with("x-") && !is_random(entry.effect)) {
+    for entry in ENTRIES.iter().chain(ALSO).filter(|entry| !entry.effect.starts_with("x-") && !is_random(entry.effect))
+    {
         for spot in spots(entry, truth, device, axis, signals) {
             found.extend(with(entry, &spot));
         }
@@ -108,8 +110,10 @@ fn spots(entry: &Entry, truth: &Quirk, device: &str, axis: Option<&str>, signals
     // The bay that feeds the belt is told by the belt's barriers alone.
     let is_near = |spot: &&Spot| spot.0 == device || spot.0 == "Feed" && device == "Belt";
     let known: Vec<&Spot> = entry.spots.iter().filter(is_near).collect();
-    let mut places: Vec<Place> =
-        known.iter().map(|(device, component, scale)| ((*device).to_owned(), (*component).to_owned(), *scale)).collect();
+    let mut places: Vec<Place> = known
+        .iter()
+        .map(|(device, component, scale)| ((*device).to_owned(), (*component).to_owned(), *scale))
+        .collect();
     let also = |component: &str, scale: f64| (device.to_owned(), component.to_owned(), scale);
     if OF_LINKS.contains(&entry.effect) {
         places.push(also("", 1.0));
@@ -203,9 +207,8 @@ fn free(law: &Law, scale: f64) -> Option<Free> {
         let range = (middle - STRONGEST * most, middle + STRONGEST * most);
         Some(Free { name, is_log: false, starts, range, small: 1e-5 * most })
     };
-    let grows = |name, most: f64| {
-        log(name, STRENGTHS.iter().map(|s| most * s).collect(), most * WEAKEST, most * STRONGEST)
-    };
+    let grows =
+        |name, most: f64| log(name, STRENGTHS.iter().map(|s| most * s).collect(), most * WEAKEST, most * STRONGEST);
     match *law {
         Law::Grows(name, most) => grows(name, scale * most),
         Law::Share(name, most) => grows(name, most),

@@ -18,6 +18,10 @@ mod apart;
 mod candidate;
 mod refit;
 
+#[cfg(test)]
+mod tests;
+
+use std::cell::OnceCell;
 
 pub use alone::Alone;
 
@@ -62,7 +66,10 @@ fn once(class: Vec<Member>) -> Vec<Member> {
     let mut kept: Vec<Member> = Vec::new();
     for member in &class {
         let same = |other: &&Member| {
-            is_link(member) && other.device == member.device && other.effect == member.effect && other.place == member.place
+            is_link(member)
+                && other.device == member.device
+                && other.effect == member.effect
+                && other.place == member.place
         };
         let first = class.iter().find(same);
         let whole = class.iter().filter(same).find(|other| other.component.is_none());
@@ -77,7 +84,9 @@ fn once(class: Vec<Member>) -> Vec<Member> {
 /// A truth to be imitated: on a part of the recording first, for what cannot do it there cannot do it on the whole.
 struct Look<'a> {
     first: Goal<'a>,
-    whole: Goal<'a>,
+    /// On the whole recording: made when the first candidate comes so far.
+    whole: OnceCell<Goal<'a>>,
+    end: f64,
     /// D² of the effect on the first part.
     shows: f64,
     ports: Vec<String>,
@@ -95,7 +104,7 @@ impl<'a> Look<'a> {
         let first = Goal::new(device, measure, truth, part);
         let shows = first.shows(&|_| true);
         let ports = device.signals().iter().map(|signal| signal.parts().1.to_owned()).collect();
-        Look { first, whole: Goal::new(device, measure, truth, end), shows, ports }
+        Look { first, whole: OnceCell::new(), end, shows, ports }
     }
 
     /// How near the candidate comes to the truth. Of what comes nowhere near [`SAME`], not all the way.
@@ -113,23 +122,16 @@ impl<'a> Look<'a> {
         let fits = starts.into_iter().map(|start| self.first.descend(candidate, start));
         let Some(best) = fits.min_by(|a, b| a.squared.total_cmp(&b.squared)) else { return f64::INFINITY };
         let distance = |fit: &Fit| fit.squared.sqrt();
-        if std::env::var("CLS").is_ok() {
-            eprintln!("   {:?} {:.1}", candidate.quirk.member(), distance(&best));
-        }
         if distance(&best) > HOPELESS.1 + HOPELESS.0 * self.shows.sqrt() {
             return distance(&best);
         }
         let best = self.first.polish(candidate, best, SAME * SAME, 60);
-        if std::env::var("CLS").is_ok() {
-            eprintln!("      polished {:.2}", distance(&best));
-        }
         if distance(&best) > 2.0 * SAME {
             return distance(&best);
         }
-        let best = self.whole.polish(candidate, self.whole.descend(candidate, best), SAME * SAME, 150);
-        if std::env::var("CLS").is_ok() {
-            eprintln!("      whole {:.2} {:?}", distance(&best), best.at);
-        }
+        let Goal { device, measure, quirks, .. } = &self.first;
+        let whole = self.whole.get_or_init(|| Goal::new(device, measure, quirks, self.end));
+        let best = whole.polish(candidate, whole.descend(candidate, best), SAME * SAME, 150);
         distance(&best)
     }
 }

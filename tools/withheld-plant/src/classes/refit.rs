@@ -15,9 +15,10 @@ use crate::quirk::Quirk;
 pub struct Goal<'a> {
     pub device: &'a Alone<'a>,
     pub measure: &'a Measure,
+    pub quirks: &'a [Quirk],
     /// Until when it is listened to, s.
-    pub end: f64,
-    pub truth: Heard,
+    end: f64,
+    truth: Heard,
     /// What the effect does, as [`differences`](Measure::differences) from the truth.
     healthy: Vec<f64>,
     owners: Vec<usize>,
@@ -41,7 +42,7 @@ const BEST: usize = 2;
 
 impl<'a> Goal<'a> {
     /// The output of `quirks` until `end`.
-    pub fn new(device: &'a Alone<'a>, measure: &'a Measure, quirks: &[Quirk], end: f64) -> Goal<'a> {
+    pub fn new(device: &'a Alone<'a>, measure: &'a Measure, quirks: &'a [Quirk], end: f64) -> Goal<'a> {
         let truth = device.hear(quirks, &Unknowns::default(), end);
         let count = device.measures();
         let mut columns = Vec::new();
@@ -56,7 +57,7 @@ impl<'a> Goal<'a> {
         let unknowns = Unknowns { measures: vec![0.0; count], filter: 0.0 };
         let healthy = measure.differences(&truth, &device.hear(&[], &unknowns, end));
         let owners = measure.owners(&truth);
-        Goal { device, measure, end, truth, healthy, owners, columns }
+        Goal { device, measure, quirks, end, truth, healthy, owners, columns }
     }
 
     /// D² of the effect itself on the signals of which `is_meant` is so, but for what the unknown takes.
@@ -68,10 +69,15 @@ impl<'a> Goal<'a> {
         left(&only(&self.healthy), &columns, known(&columns).as_ref())
     }
 
+    fn healthy_squared(&self) -> f64 {
+        product(&self.healthy, &self.healthy)
+    }
+
     fn hear(&self, candidate: &Candidate, at: &[f64]) -> Heard {
         let (own, unknown) = at.split_at(candidate.free.len());
         let count = unknown.len().saturating_sub(1);
-        let unknowns = Unknowns { measures: unknown[..count].to_vec(), filter: unknown.get(count).copied().unwrap_or(0.0) };
+        let unknowns =
+            Unknowns { measures: unknown[..count].to_vec(), filter: unknown.get(count).copied().unwrap_or(0.0) };
         self.device.hear(&[candidate.at(own)], &unknowns, self.end)
     }
 
@@ -91,7 +97,10 @@ impl<'a> Goal<'a> {
     pub fn starts(&self, candidate: &Candidate) -> Vec<Fit> {
         let mut grid = vec![Vec::new()];
         for free in &candidate.free {
-            grid = grid.iter().flat_map(|at| free.starts.iter().map(move |start| [at.as_slice(), &[*start]].concat())).collect();
+            grid = grid
+                .iter()
+                .flat_map(|at| free.starts.iter().map(move |start| [at.as_slice(), &[*start]].concat()))
+                .collect();
         }
         let known = known(&self.columns);
         let mut starts: Vec<Fit> = grid
@@ -114,8 +123,10 @@ impl<'a> Goal<'a> {
         let mut residual = self.differences(candidate, &at);
         let mut cost = residual.norm_squared();
         let mut damping = 1e-3;
-        for _ in 0..STEPS {
-            if cost < 1.0 {
+        let first = cost;
+        for step in 0..STEPS {
+            // Enough of it, or no sign that it leads anywhere.
+            if cost < 1.0 || step == 3 && cost > 0.5 * first.min(self.healthy_squared()) {
                 break;
             }
             let jacobian = self.jacobian(candidate, &at, &residual);
@@ -212,7 +223,9 @@ impl<'a> Goal<'a> {
                     }
                 }
             }
-            if steps.iter().zip(jacobian.column_iter()).all(|(step, column)| step * column.norm() < 0.02) && best.squared == before {
+            if steps.iter().zip(jacobian.column_iter()).all(|(step, column)| step * column.norm() < 0.02)
+                && best.squared == before
+            {
                 break;
             }
         }
