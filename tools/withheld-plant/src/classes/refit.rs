@@ -84,7 +84,7 @@ impl<'a> Goal<'a> {
     /// D² by the rule of the magnitudes, and what the unknown costs.
     pub fn squared(&self, candidate: &Candidate, at: &[f64]) -> f64 {
         let unknown: f64 = at[candidate.free.len()..].iter().map(|off| off * off).sum();
-        self.measure.squared(&self.truth, &self.hear(candidate, at)) + unknown
+        finite(self.measure.squared(&self.truth, &self.hear(candidate, at)) + unknown)
     }
 
     fn differences(&self, candidate: &Candidate, at: &[f64]) -> DVector<f64> {
@@ -243,7 +243,12 @@ fn known(columns: &[Vec<f64>]) -> Option<DMatrix<f64>> {
 /// The square of what is apart, less what the unknown takes of it.
 fn left(apart: &[f64], columns: &[Vec<f64>], known: Option<&DMatrix<f64>>) -> f64 {
     let along = DVector::from_iterator(columns.len(), columns.iter().map(|column| product(column, apart)));
-    (product(apart, apart) - known.map_or(0.0, |known| along.dot(&(known * &along)))).max(0.0)
+    finite(product(apart, apart) - known.map_or(0.0, |known| along.dot(&(known * &along)))).max(0.0)
+}
+
+/// A spring that is stiffer than a step can follow flies away: no number is as far off as can be.
+fn finite(squared: f64) -> f64 {
+    if squared.is_finite() { squared } else { f64::INFINITY }
 }
 
 fn product(one: &[f64], other: &[f64]) -> f64 {
