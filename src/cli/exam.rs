@@ -303,6 +303,7 @@ fn text(exam: &Exam) -> String {
     let all = [
         ("device right", &rates.device_right),
         ("single right", &rates.single_right),
+        ("truth in class", &rates.truth_in_class),
         ("truth named", &rates.truth_named),
         ("false alarm", &rates.false_alarm),
         ("outside right", &rates.outside_right),
@@ -319,6 +320,12 @@ fn text(exam: &Exam) -> String {
         let value = rate.value.map_or("–".to_owned(), percent);
         let within = rate.ci95.map_or(String::new(), |[low, high]| format!("{} to {}", percent(low), percent(high)));
         text.push_str(&format!("{name:20} {value:>8}  {within:>17}  {:>5}\n", rate.n));
+    }
+    for (name, sizes) in [("true classes", &exam.true_classes), ("named classes", &exam.named_classes)] {
+        if let Some(median) = sizes.median {
+            let counts: Vec<String> = sizes.counts.iter().map(|(size, cases)| format!("{cases} of {size}")).collect();
+            text.push_str(&format!("{name:20} {median:>8}  {:>17}  {:>5}\n", counts.join(", "), sizes.n));
+        }
     }
     for (case, why) in &exam.failed {
         text.push_str(&format!("{case} has no verdict: {why}\n"));

@@ -63,6 +63,16 @@ pub struct TrueEffect {
     pub parameters: Vec<(String, f64)>,
 }
 
+/// One of the effects that the case's recording cannot tell apart.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ClassMember {
+    pub device: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub component: Option<String>,
+    pub effect: String,
+    pub place: String,
+}
+
 /// The truth about one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
@@ -70,6 +80,10 @@ pub struct Answer {
     pub sort: Sort,
     pub magnitude: Magnitude,
     pub effects: Vec<TrueEffect>,
+    /// All effects that nobody can tell from the one effect in this recording, itself included. Empty where it was not computed:
+    /// of faint cases, of several effects, and in answers that were sealed before there were classes.
+    #[serde(default)]
+    pub class: Vec<ClassMember>,
 }
 
 impl Answer {

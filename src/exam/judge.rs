@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use super::answer::{Answer, Magnitude, Sort, TrueEffect};
+use super::class;
 use crate::gap::report::{Cause, Member, Report, Verdict};
 
 /// What one report got right. What does not apply to a case is absent.
@@ -21,9 +22,13 @@ pub struct Judged {
     /// As many devices as have something wrong stand first in the report's `where`, and are those.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub device_right: Option<bool>,
-    /// One effect, named alone and surely, or in the class that is named.
+    /// One effect: named alone and surely where nothing else could be it, else as `ambiguous` with just its class. Where its class was
+    /// not computed, as `truth_in_class`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub single_right: Option<bool>,
+    /// One effect, named alone and surely, or in the class that is named, whatever else that holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub truth_in_class: Option<bool>,
     /// It stands among causes, their classes or the rivals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub truth_named: Option<bool>,
@@ -36,6 +41,12 @@ pub struct Judged {
     pub weight: Option<f64>,
     /// The members of the class that was named.
     pub class_size: usize,
+    /// Those of the true one, where it was computed: without parameters that are other names of its effects.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub true_class_size: Option<usize>,
+    /// The same in words, where there are several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub true_class: Vec<String>,
     /// The part of the gap that is gone on the held-out recording.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shrink: Option<f64>,
@@ -52,7 +63,9 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
     let is_two = matches!(answer.sort, Sort::TwoOnOneDevice | Sort::OneOnEachOfTwo);
     let named = |truth: &TrueEffect| report.cause.iter().any(|cause| of_class(cause, truth));
     let names_something = matches!(report.verdict, Verdict::Effect | Verdict::Ambiguous);
-    let single = || names_something && report.cause.len() == 1 && truths.iter().all(named);
+    let in_class = || names_something && report.cause.len() == 1 && truths.iter().all(named);
+    let single = || if answer.class.is_empty() { in_class() } else { class::is_just(answer, report) };
+    let members = class::answers(&answer.class);
     let rival = |truth: &TrueEffect| {
         report.rivals.iter().any(|rival| is_same(truth, &rival.device, rival.component.as_deref(), &rival.effect))
     };
@@ -65,11 +78,17 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
         answered: report.cause.iter().map(|c| in_words(&c.device, c.component.as_deref(), &c.effect)).collect(),
         device_right: (!truths.is_empty()).then(|| devices_are_right(truths, report)),
         single_right: is_single.then(single),
+        truth_in_class: is_single.then(in_class),
         truth_named: is_single.then(|| truths.iter().all(|truth| named(truth) || rival(truth))),
         both_right: is_two.then(|| truths.iter().all(named)),
-        covered: if is_single && single() { covered(&truths[0], report) } else { [0, 0] },
+        covered: if is_single && in_class() { covered(&truths[0], report) } else { [0, 0] },
         weight: report.cause.first().map(|cause| cause.weight),
         class_size: report.cause.first().map_or(0, |cause| cause.class.len()),
+        true_class_size: (!members.is_empty()).then_some(members.len()),
+        true_class: match members.as_slice() {
+            [] | [_] => Vec::new(),
+            several => several.iter().map(|one| in_words(&one.device, one.component.as_deref(), &one.effect)).collect(),
+        },
         shrink: report.shrink.ratio.map(|ratio| 1.0 - ratio),
         oracle_shrink: None,
         seconds,

@@ -4,6 +4,7 @@
 //! own that knows the case's folder alone; the truth is opened when all reports are written, and judged here.
 
 mod answer;
+mod class;
 mod floor;
 mod judge;
 mod page;
@@ -12,8 +13,8 @@ mod rates;
 #[cfg(test)]
 mod tests;
 
-pub use answer::{Answer, AnswersError, Magnitude, Sort, TrueEffect, read_answers};
+pub use answer::{Answer, AnswersError, ClassMember, Magnitude, Sort, TrueEffect, read_answers};
 pub use floor::Floor;
 pub use judge::{Judged, judge, unanswered};
 pub use page::page;
-pub use rates::{Exam, Rate, Rates, wilson};
+pub use rates::{Exam, Rate, Rates, Spread, wilson};

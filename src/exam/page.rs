@@ -18,6 +18,7 @@ pub fn page(exam: &Exam) -> String {
         exam.cases, exam.date, exam.seed
     );
     rates(exam, &mut page);
+    classes(exam, &mut page);
     confusion(exam, &mut page);
     cases(exam, &mut page);
     page.push_str("</body>\n</html>\n");
@@ -36,6 +37,7 @@ fn rates(exam: &Exam, page: &mut String) {
         ("shrink, of the oracle's", &r.shrink_of_oracle, "at least 95 %"),
         ("parameters in their interval", &r.interval_cover, "90 to 98 %"),
         ("calibration error of the weights", &r.ece, "at most 5 %"),
+        ("single effect in the class that was named, whatever its size", &r.truth_in_class, ""),
         ("truth among causes, classes and rivals", &r.truth_named, ""),
         ("faint: sure and wrong", &r.faint_sure_wrong, "at most 5 %"),
     ];
@@ -65,6 +67,27 @@ fn row(page: &mut String, what: &str, rate: &Rate, target: &str) {
     );
 }
 
+/// How many effects a recording leaves open, to anyone, and to the diagnosis.
+fn classes(exam: &Exam, page: &mut String) {
+    let [known, named] = [&exam.true_classes, &exam.named_classes];
+    if known.n == 0 {
+        return;
+    }
+    page.push_str("<h2>Effects that a recording cannot tell apart</h2>\n<table>\n");
+    page.push_str("<tr><th>classes of single effects</th><th>cases</th><th>median size (at most 2)</th><th>size: cases</th></tr>\n");
+    for (what, sizes) in [("by the plants themselves", known), ("as they were named", named)] {
+        let counts: Vec<String> = sizes.counts.iter().map(|(size, cases)| format!("{size}: {cases}")).collect();
+        let median = sizes.median.map_or("–".to_owned(), |median| median.to_string());
+        let _ = writeln!(
+            page,
+            "<tr><td>{what}</td><td class=\"n\">{}</td><td class=\"n\">{median}</td><td>{}</td></tr>",
+            sizes.n,
+            counts.join(", ")
+        );
+    }
+    page.push_str("</table>\n");
+}
+
 fn confusion(exam: &Exam, page: &mut String) {
     page.push_str("<h2>What was answered, by what was true</h2>\n<table>\n<tr><th>true</th><th>answered</th></tr>\n");
     for (truth, answers) in &exam.confusion {
@@ -86,7 +109,7 @@ fn cases(exam: &Exam, page: &mut String) {
             if one.is_wrong() { " class=\"wrong\"" } else { "" },
             escape(&one.case),
             one.magnitude.name(),
-            escape(&one.truth.join("; ")),
+            escape(&in_class(&one.truth, &one.true_class)),
             one.verdict,
             escape(&one.answered.join("; ")),
             one.shrink.map_or("–".to_owned(), |shrink| format!("{:.0} %", 100.0 * shrink)),
@@ -97,4 +120,11 @@ fn cases(exam: &Exam, page: &mut String) {
     for (case, why) in &exam.failed {
         let _ = writeln!(page, "<p>{} has no verdict: {}</p>", escape(case), escape(why));
     }
+}
+
+/// The truth, with all that nobody could tell from it.
+fn in_class(truth: &[String], class: &[String]) -> String {
+    let others: Vec<&str> = class.iter().filter(|member| !truth.contains(member)).map(String::as_str).collect();
+    let truth = truth.join("; ");
+    if others.is_empty() { truth } else { format!("{truth} (or {})", others.join(", or ")) }
 }

@@ -59,7 +59,31 @@ pub struct Rates {
     pub ece: Rate,
     /// Beside the targets: the truth among causes, classes and rivals; sure and wrong at faint.
     pub truth_named: Rate,
+    /// `single_right` without asking for just the class: the truth alone, or in whatever class was named.
+    #[serde(default)]
+    pub truth_in_class: Rate,
     pub faint_sure_wrong: Rate,
+}
+
+/// How large several things are.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Spread {
+    pub n: usize,
+    /// The lower one of two.
+    pub median: Option<usize>,
+    /// How many there are of each size.
+    pub counts: BTreeMap<usize, usize>,
+}
+
+impl Spread {
+    /// Of these.
+    pub fn of(sizes: impl IntoIterator<Item = usize>) -> Spread {
+        let mut sizes: Vec<usize> = sizes.into_iter().collect();
+        sizes.sort_unstable();
+        let mut counts = BTreeMap::new();
+        sizes.iter().for_each(|size| *counts.entry(*size).or_default() += 1);
+        Spread { n: sizes.len(), median: sizes.get(sizes.len().saturating_sub(1) / 2).copied(), counts }
+    }
 }
 
 /// A whole exam: `exam.json`.
@@ -79,6 +103,12 @@ pub struct Exam {
     pub confusion: BTreeMap<String, BTreeMap<String, usize>>,
     /// The median number of members of the classes that were named where one effect was the truth.
     pub median_class: Option<usize>,
+    /// Of single effects that count: the sizes of the classes that these recordings cannot part by anyone, and of those that were named
+    /// for them.
+    #[serde(default)]
+    pub true_classes: Spread,
+    #[serde(default)]
+    pub named_classes: Spread,
     pub seconds_per_case: Option<f64>,
     pub judged: Vec<Judged>,
     /// Cases without a verdict, and why.
@@ -102,14 +132,15 @@ impl Exam {
                 let [inside, all] = one.covered;
                 (0..all).map(move |k| k < inside)
             })),
-            ece: calibration(judged.iter().filter(counts).filter_map(|one| Some((one.weight?, one.single_right?)))),
+            ece: calibration(judged.iter().filter(counts).filter_map(|one| Some((one.weight?, one.truth_in_class?)))),
+            truth_in_class: Rate::share(judged.iter().filter(counts).filter_map(|one| one.truth_in_class)),
             truth_named: Rate::share(judged.iter().filter(counts).filter_map(|one| one.truth_named)),
             faint_sure_wrong: Rate::share(
                 of(Sort::Single).filter(|one| one.magnitude == Magnitude::Faint).map(Judged::is_wrong),
             ),
         };
         let mut sizes: Vec<usize> =
-            judged.iter().filter(|one| one.single_right == Some(true)).map(|j| j.class_size).collect();
+            judged.iter().filter(|one| one.truth_in_class == Some(true)).map(|j| j.class_size).collect();
         sizes.sort_unstable();
         let seconds = judged.iter().map(|one| one.seconds).sum::<f64>() / judged.len().max(1) as f64;
         Exam {
@@ -124,6 +155,14 @@ impl Exam {
                 device.map(str::to_owned)
             }),
             confusion: confusion(&judged),
+            true_classes: Spread::of(judged.iter().filter(counts).filter_map(|one| one.true_class_size)),
+            named_classes: Spread::of(
+                judged
+                    .iter()
+                    .filter(counts)
+                    .filter(|one| one.true_class_size.is_some() && one.class_size > 0)
+                    .map(|one| one.class_size),
+            ),
             median_class: sizes.get(sizes.len() / 2).copied(),
             seconds_per_case: (!judged.is_empty()).then_some(seconds),
             judged,

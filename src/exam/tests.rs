@@ -15,7 +15,7 @@ fn truth(device: &str, effect: &str, place: &str) -> TrueEffect {
 }
 
 fn answer(case: &str, sort: Sort, magnitude: Magnitude, effects: Vec<TrueEffect>) -> Answer {
-    Answer { case: case.to_owned(), sort, magnitude, effects }
+    Answer { case: case.to_owned(), sort, magnitude, effects, class: Vec::new() }
 }
 
 fn report(verdict: Verdict, causes: &[(&str, &str, EffectPlace)]) -> Report {

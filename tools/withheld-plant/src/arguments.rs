@@ -53,6 +53,9 @@ pub struct Practice {
     /// Machines built exactly to their figures, for models/rig, which tolerates nothing
     #[arg(long)]
     pub exact: bool,
+    /// Answers without the classes of effects that cannot be told apart, which take seconds a case
+    #[arg(long)]
+    pub no_classes: bool,
 }
 
 #[derive(Debug, Args)]
@@ -72,6 +75,9 @@ pub struct Cases {
     /// The file for the key [default: beside the folder, DIR.key]
     #[arg(long, value_name = "FILE")]
     pub key: Option<PathBuf>,
+    /// Answers without the classes of effects that cannot be told apart, which take seconds a case
+    #[arg(long)]
+    pub no_classes: bool,
 }
 
 /// Which exam.

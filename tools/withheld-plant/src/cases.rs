@@ -10,9 +10,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalogue::{ENTRIES, Entry, Spot};
 use crate::chance::Dice;
+use crate::classes::{self, Alone};
 use crate::magnitude::{Hidden, Magnitude, distance};
 use crate::plant::{Command, Plant};
-use crate::quirk::Quirk;
+use crate::quirk::{Member, Quirk};
 use crate::record::{self, Seen, Surroundings};
 use crate::rig::RigParameters;
 use crate::script::{self, Part};
@@ -49,6 +50,9 @@ pub struct Answer {
     /// Of the whole, in the training recording.
     pub distance: f64,
     pub effects: Vec<Quirk>,
+    /// All effects that nobody can tell from the one effect in this recording, itself first: of one that is clear or gross.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub class: Vec<Member>,
     /// How the machine was listened to.
     pub surroundings: Surroundings,
 }
@@ -60,6 +64,8 @@ pub struct Conditions {
     pub prompt: bool,
     /// Machines built exactly to their figures.
     pub exact: bool,
+    /// Answers without the classes of effects that cannot be told apart.
+    pub classless: bool,
 }
 
 impl Conditions {
@@ -253,6 +259,27 @@ impl Bench {
         hidden
     }
 
+    /// What nobody can tell from `quirk` in the training recording.
+    fn class(&self, quirk: &Quirk) -> Vec<Member> {
+        // A bay is told by the belt that it feeds.
+        let device = if quirk.device == "Feed" { "Belt" } else { &quirk.device };
+        let (plant, _) = self.run(Part::Train, std::slice::from_ref(quirk), &self.around);
+        let own = plant.devices.iter().position(|(name, _)| name == device).unwrap_or_default();
+        let others = |(from, moved): &(f64, u64)| (*from, (moved & !(1 << own)).count_ones() as usize);
+        let script = &self.scripts[Part::Train as usize];
+        let own = |command: &&Command| command.signal.split_once('.').is_some_and(|(of, _)| of == device);
+        let alone = Alone {
+            built: &self.built,
+            around: &self.around,
+            device,
+            script: script.iter().filter(own).cloned().collect(),
+            company: plant.moved.iter().map(others).collect(),
+            seed: self.seed ^ Part::Train as u64,
+            share: self.tolerance / 3.0_f64.sqrt(),
+        };
+        classes::class(&alone, quirk, Part::Train.seconds())
+    }
+
     /// The effect with the strength that shows as much as it is to.
     fn quirk(
         &self,
@@ -326,6 +353,11 @@ impl Plan {
             // What is stronger than its tolerance may show more than was meant.
             _ => Magnitude::of(distance).unwrap_or(self.magnitude),
         };
+        let shows = magnitude == Magnitude::Clear || magnitude == Magnitude::Gross;
+        let class = match quirks.as_slice() {
+            [quirk] if self.sort == Sort::Single && shows && !conditions.classless => bench.class(quirk),
+            _ => Vec::new(),
+        };
         let surroundings = bench.around;
         Ok(Answer {
             case,
@@ -334,6 +366,7 @@ impl Plan {
             magnitude,
             distance,
             effects: quirks,
+            class,
             surroundings,
         })
     }

@@ -64,7 +64,8 @@ fn cases(asked: &Cases) -> Result<String, ExamError> {
         Exam::Training => TRAINING_SEED,
         Exam::Final => sealed_answers::random_seed(),
     });
-    let answers = make(&asked.folder, sizes, seed, asked.exam.name(), Conditions::default())?;
+    let conditions = Conditions { classless: asked.no_classes, ..Conditions::default() };
+    let answers = make(&asked.folder, sizes, seed, asked.exam.name(), conditions)?;
     let key = asked.key.clone().unwrap_or_else(|| sealed_answers::default_key(&asked.folder));
     sealed_answers::seal(&asked.folder, &key, &answers)?;
     Ok(format!("{} cases in {}, the key of their answers in {}", sizes.sum(), asked.folder.display(), key.display()))
@@ -74,7 +75,7 @@ fn practice(asked: &Practice) -> Result<String, ExamError> {
     if asked.answers.starts_with(&asked.out) {
         return Err(ExamError::AnswersInside { path: asked.answers.clone() });
     }
-    let conditions = Conditions { prompt: asked.prompt, exact: asked.exact };
+    let conditions = Conditions { prompt: asked.prompt, exact: asked.exact, classless: asked.no_classes };
     let answers = make(&asked.out, Sizes::WHOLE.scaled(asked.cases), asked.seed, "practice", conditions)?;
     write(&asked.answers, &answers)?;
     Ok(format!("{} cases in {}, their answers in {}", asked.cases, asked.out.display(), asked.answers.display()))

@@ -94,19 +94,23 @@ pub fn distance(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundi
 
 /// The differences of all levels, in units of what noise and rounding leave unsure.
 fn apart(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundings) -> Vec<f64> {
-    let r = (-around.cycle / around.noise_time.max(1e-9)).exp();
-    let wide = (1.0 + r) / (1.0 - r);
-    let unsure =
-        |signal: &Signal| ((around.noise * signal.sigma).powi(2) * wide + signal.quantum.powi(2) / 12.0).sqrt();
+    let unsure: Vec<f64> = signals.iter().map(|signal| unsure(signal, around)).collect();
     let mut apart = Vec::new();
     for (a, b) in one.values.iter().zip(&other.values) {
-        for ((signal, a), b) in signals.iter().zip(a).zip(b) {
+        for (((signal, unsure), a), b) in signals.iter().zip(&unsure).zip(a).zip(b) {
             if matches!(signal.kind, Kind::Level | Kind::Count) {
-                apart.push((a - b) / unsure(signal));
+                apart.push((a - b) / unsure);
             }
         }
     }
     apart
+}
+
+/// What noise and rounding leave unsure of a level at one report, σ·√φ and q/√12 together.
+pub fn unsure(signal: &Signal, around: &Surroundings) -> f64 {
+    let r = (-around.cycle / around.noise_time.max(1e-9)).exp();
+    let wide = (1.0 + r) / (1.0 - r);
+    ((around.noise * signal.sigma).powi(2) * wide + signal.quantum.powi(2) / 12.0).sqrt()
 }
 
 fn flags_apart(one: &Seen, other: &Seen, signals: &[Signal]) -> f64 {

@@ -11,6 +11,7 @@ mod belt;
 mod cases;
 mod catalogue;
 mod chance;
+mod classes;
 mod drive;
 mod exam;
 mod gripper;

@@ -74,6 +74,10 @@ pub struct Plant {
     pub devices: Vec<(String, Box<dyn Device>)>,
     pub signals: Vec<Signal>,
     pub quirks: Vec<Quirk>,
+    /// How many devices besides these move, each from its instant on; sorted.
+    pub company: Vec<(f64, usize)>,
+    /// Which devices moved, a bit for each, from when on: as it has run so far.
+    pub moved: Vec<(f64, u64)>,
 }
 
 impl Plant {
@@ -116,7 +120,13 @@ impl Plant {
     }
 
     fn advance(&mut self, now: f64, span: f64) {
-        let moving = self.devices.iter().filter(|(_, device)| device.moves()).count();
+        let bits = self.devices.iter().enumerate().map(|(at, (_, device))| u64::from(device.moves()) << at);
+        let moves: u64 = bits.sum();
+        if self.moved.last().is_none_or(|(_, last)| *last != moves) {
+            self.moved.push((now - span, moves));
+        }
+        let company = self.company.partition_point(|(from, _)| *from <= now - span + 1e-12).checked_sub(1);
+        let moving = moves.count_ones() as usize + company.map_or(0, |at| self.company[at].1);
         for (_, device) in &mut self.devices {
             let others = moving - usize::from(device.moves());
             device.advance(now, span, others);

@@ -19,7 +19,23 @@ pub struct Quirk {
     pub with: Option<String>,
 }
 
+/// An effect by its names: one of those that a recording cannot tell apart.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Member {
+    pub device: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub component: Option<String>,
+    pub effect: String,
+    pub place: String,
+}
+
 impl Quirk {
+    /// Its names.
+    pub fn member(&self) -> Member {
+        let Quirk { device, component, effect, place, .. } = self.clone();
+        Member { device, component, effect, place }
+    }
+
     /// A parameter; 0 where it has none of that name.
     pub fn value(&self, name: &str) -> f64 {
         self.parameters.iter().find(|(own, _)| own == name).map_or(0.0, |(_, value)| *value)

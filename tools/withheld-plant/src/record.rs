@@ -96,7 +96,7 @@ pub fn watch(plant: &mut Plant, script: &[Command], around: &Surroundings, end: 
 }
 
 /// The commands as the devices take them: over their links, when their task runs next.
-fn taken(script: &[Command], quirks: &[Quirk], around: &Surroundings, end: f64, dice: &mut Dice) -> Vec<Command> {
+pub fn taken(script: &[Command], quirks: &[Quirk], around: &Surroundings, end: f64, dice: &mut Dice) -> Vec<Command> {
     let mut all = Vec::new();
     for (name, kind) in COMMANDS {
         let (device, port) = name.split_once('.').unwrap_or_default();
@@ -137,7 +137,7 @@ fn taken(script: &[Command], quirks: &[Quirk], around: &Surroundings, end: f64, 
 }
 
 /// What stands between a signal's sensor and its report.
-fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item = &'a Quirk> {
+pub fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item = &'a Quirk> {
     let (device, port) = signal.parts();
     let of_device = Quirks::of(quirks, device);
     // A sensor's effect names its signal, a link's may mean all of them.
@@ -145,7 +145,7 @@ fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item = &
     sensor.chain(of_device.at("report-link", port))
 }
 
-fn reported(
+pub fn reported(
     mut stream: Stream,
     signal: &Signal,
     quirks: &[Quirk],

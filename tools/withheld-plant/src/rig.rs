@@ -103,6 +103,14 @@ impl RigParameters {
         (0..count).filter_map(larger).collect()
     }
 
+    /// The same with the measures of a device larger by these shares of themselves, in their order.
+    pub fn with_larger(&self, device: &str, shares: &[f64]) -> RigParameters {
+        let mut other = self.clone();
+        let own = other.measures().into_iter().filter(|(of, _)| *of == device);
+        own.zip(shares).for_each(|((_, measure), share)| *measure *= 1.0 + share);
+        other
+    }
+
     /// The plant with `quirks`; `seed` is that of what befalls its boxes.
     pub fn plant(&self, quirks: &[Quirk], seed: u64) -> Plant {
         let RigParameters { belt, pusher, robot, gripper, servo, motor } = self;
@@ -115,7 +123,7 @@ impl RigParameters {
             ("Motor", Box::new(Motor::new(motor, quirks, "Motor"))),
         ];
         let devices = devices.into_iter().map(|(name, device)| (name.to_owned(), device)).collect();
-        Plant { devices, signals: signals(), quirks: quirks.to_vec() }
+        Plant { devices, signals: signals(), quirks: quirks.to_vec(), company: Vec::new(), moved: Vec::new() }
     }
 }
 

@@ -1,0 +1,106 @@
+//! How far two outputs of a device lie apart: exactly, by the rule of the magnitudes, and in a form that has slopes for the search.
+
+use super::alone::{Alone, Heard};
+use crate::magnitude;
+use crate::plant::{Kind, Signal};
+
+/// A flag's edge is looked for so near, s.
+const NEAR: f64 = 0.5;
+
+/// One that is not there, or that is one too many, counts as if it were so many cycles late.
+const LOST: f64 = 10.0;
+
+/// The scales of a device's signals.
+pub struct Measure {
+    /// By signal; of a flag nothing.
+    unsure: Vec<Option<f64>>,
+    cycle: f64,
+}
+
+impl Measure {
+    /// Of the signals of `device`.
+    pub fn new(device: &Alone<'_>, signals: &[Signal]) -> Measure {
+        let unsure = |signal: &Signal| {
+            let is_level = matches!(signal.kind, Kind::Level | Kind::Count);
+            is_level.then(|| magnitude::unsure(signal, device.around))
+        };
+        Measure { unsure: signals.iter().map(unsure).collect(), cycle: device.around.cycle }
+    }
+
+    /// The square of the distance: that of the magnitudes.
+    pub fn squared(&self, one: &Heard, other: &Heard) -> f64 {
+        self.by_signal(one, other).iter().sum()
+    }
+
+    /// The same, by signal.
+    pub fn by_signal(&self, one: &Heard, other: &Heard) -> Vec<f64> {
+        let mut sums = vec![0.0; self.unsure.len()];
+        for (a, b) in one.values.iter().zip(&other.values) {
+            for (((sum, unsure), a), b) in sums.iter_mut().zip(&self.unsure).zip(a).zip(b) {
+                *sum += match unsure {
+                    Some(unsure) => ((a - b) / unsure).powi(2),
+                    None if a != b => 12.0,
+                    None => 0.0,
+                };
+            }
+        }
+        sums
+    }
+
+    /// Differences whose squares sum to about the same and that move with every edge: `other` less `one`, as many as `one` has values
+    /// and edges.
+    pub fn differences(&self, one: &Heard, other: &Heard) -> Vec<f64> {
+        let mut all = Vec::with_capacity(one.values.len() * self.unsure.len());
+        for (a, b) in one.values.iter().zip(&other.values) {
+            for ((unsure, a), b) in self.unsure.iter().zip(a).zip(b) {
+                if let Some(unsure) = unsure {
+                    all.push((b - a) / unsure);
+                }
+            }
+        }
+        for (one, other) in one.edges.iter().zip(&other.edges) {
+            self.edges(one, other, &mut all);
+        }
+        all
+    }
+
+    /// The signal of each of the [`differences`](Measure::differences) from `one`.
+    pub fn owners(&self, one: &Heard) -> Vec<usize> {
+        let levels = || (0..self.unsure.len()).filter(|signal| self.unsure[*signal].is_some());
+        let mut owners: Vec<usize> = one.values.iter().flat_map(|_| levels()).collect();
+        for (signal, edges) in one.edges.iter().enumerate() {
+            owners.extend(std::iter::repeat_n(signal, edges.len() + 1));
+        }
+        owners
+    }
+
+    /// Edges beside each other in order. One that is nowhere near counts as far off; what there is too much of, in one number.
+    fn edges(&self, one: &[(f64, f64)], other: &[(f64, f64)], all: &mut Vec<f64>) {
+        let mut next = 0;
+        let mut matched = 0;
+        for &(at, value) in one {
+            let near = other[next..].iter().take_while(|(then, _)| *then < at + NEAR);
+            let found = near
+                .enumerate()
+                .filter(|(_, (then, to))| *to == value && (then - at).abs() < NEAR)
+                .min_by(|(_, a), (_, b)| (a.0 - at).abs().total_cmp(&(b.0 - at).abs()));
+            match found {
+                Some((skipped, (then, _))) => {
+                    next += skipped + 1;
+                    matched += 1;
+                    all.push(self.late(then - at));
+                }
+                None => all.push(self.late(LOST * self.cycle)),
+            }
+        }
+        all.push((other.len().saturating_sub(matched) as f64).sqrt() * self.late(LOST * self.cycle));
+    }
+
+    /// A flag that is late by a time differs in so many reports, of which each counts 12; below a cycle the square of the time counts, so
+    /// that it has a slope everywhere.
+    fn late(&self, time: f64) -> f64 {
+        let cycles = time / self.cycle;
+        let size = if cycles.abs() <= 1.0 { cycles.abs() } else { (2.0 * cycles.abs() - 1.0).sqrt() };
+        12.0_f64.sqrt() * size.copysign(cycles)
+    }
+}

@@ -1,0 +1,256 @@
+//! One effect refitted to another's output: from a grid of strengths by Levenberg's and Marquardt's steps, then by ever smaller trials of
+//! the exact distance, which has no slope at edges and counts.
+//!
+//! Every step finds the effect's numbers together with the machine's measures and its filter, each of which costs the square of how many
+//! standard deviations it is off.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::alone::{Alone, Heard, Unknowns};
+use super::apart::Measure;
+use super::candidate::Candidate;
+use crate::quirk::Quirk;
+
+/// An output that others are fitted to.
+pub struct Goal<'a> {
+    pub device: &'a Alone<'a>,
+    pub measure: &'a Measure,
+    pub quirks: &'a [Quirk],
+    /// Until when it is listened to, s.
+    end: f64,
+    truth: Heard,
+    /// What the effect does, as [`differences`](Measure::differences) from the truth.
+    healthy: Vec<f64>,
+    owners: Vec<usize>,
+    /// By measure, then the filter: how the output moves with a standard deviation of each.
+    columns: Vec<Vec<f64>>,
+}
+
+/// Where a fit came to.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The effect's numbers in the search's terms, then what is unknown.
+    pub at: Vec<f64>,
+    /// D².
+    pub squared: f64,
+}
+
+/// How many Levenberg steps, and trials of the exact distance.
+const STEPS: usize = 8;
+/// Starts from which the search goes on.
+const BEST: usize = 2;
+
+impl<'a> Goal<'a> {
+    /// The output of `quirks` until `end`.
+    pub fn new(device: &'a Alone<'a>, measure: &'a Measure, quirks: &'a [Quirk], end: f64) -> Goal<'a> {
+        let truth = device.hear(quirks, &Unknowns::default(), end);
+        let count = device.measures();
+        let mut columns = Vec::new();
+        for place in 0..=count {
+            let mut unknowns = Unknowns { measures: vec![0.0; count], filter: 0.0 };
+            match unknowns.measures.get_mut(place) {
+                Some(measure) => *measure = 1.0,
+                None => unknowns.filter = 1.0,
+            }
+            columns.push(measure.differences(&truth, &device.hear(quirks, &unknowns, end)));
+        }
+        let unknowns = Unknowns { measures: vec![0.0; count], filter: 0.0 };
+        let healthy = measure.differences(&truth, &device.hear(&[], &unknowns, end));
+        let owners = measure.owners(&truth);
+        Goal { device, measure, quirks, end, truth, healthy, owners, columns }
+    }
+
+    /// D² of the effect itself on the signals of which `is_meant` is so, but for what the unknown takes.
+    pub fn shows(&self, is_meant: &dyn Fn(usize) -> bool) -> f64 {
+        let only = |all: &[f64]| -> Vec<f64> {
+            all.iter().zip(&self.owners).map(|(value, owner)| if is_meant(*owner) { *value } else { 0.0 }).collect()
+        };
+        let columns: Vec<Vec<f64>> = self.columns.iter().map(|column| only(column)).collect();
+        left(&only(&self.healthy), &columns, known(&columns).as_ref())
+    }
+
+    fn healthy_squared(&self) -> f64 {
+        product(&self.healthy, &self.healthy)
+    }
+
+    fn hear(&self, candidate: &Candidate, at: &[f64]) -> Heard {
+        let (own, unknown) = at.split_at(candidate.free.len());
+        let count = unknown.len().saturating_sub(1);
+        let unknowns =
+            Unknowns { measures: unknown[..count].to_vec(), filter: unknown.get(count).copied().unwrap_or(0.0) };
+        self.device.hear(&[candidate.at(own)], &unknowns, self.end)
+    }
+
+    /// D² by the rule of the magnitudes, and what the unknown costs.
+    pub fn squared(&self, candidate: &Candidate, at: &[f64]) -> f64 {
+        let unknown: f64 = at[candidate.free.len()..].iter().map(|off| off * off).sum();
+        finite(self.measure.squared(&self.truth, &self.hear(candidate, at)) + unknown)
+    }
+
+    fn differences(&self, candidate: &Candidate, at: &[f64]) -> DVector<f64> {
+        let mut all = self.measure.differences(&self.truth, &self.hear(candidate, at));
+        all.extend(&at[candidate.free.len()..]);
+        DVector::from_vec(all)
+    }
+
+    /// Where the search begins, from the grid: the best with what is unknown solved for.
+    pub fn starts(&self, candidate: &Candidate) -> Vec<Fit> {
+        let mut grid = vec![Vec::new()];
+        for free in &candidate.free {
+            grid = grid
+                .iter()
+                .flat_map(|at| free.starts.iter().map(move |start| [at.as_slice(), &[*start]].concat()))
+                .collect();
+        }
+        let known = known(&self.columns);
+        let mut starts: Vec<Fit> = grid
+            .into_iter()
+            .map(|mut at| {
+                let apart = self.measure.differences(&self.truth, &self.hear(candidate, &at));
+                let squared = left(&apart, &self.columns, known.as_ref());
+                at.extend(vec![0.0; self.columns.len()]);
+                Fit { at, squared }
+            })
+            .collect();
+        starts.sort_by(|a, b| a.squared.total_cmp(&b.squared));
+        starts.truncate(BEST);
+        starts
+    }
+
+    /// Levenberg's and Marquardt's steps (D. W. Marquardt, J. SIAM 11, 1963) from `start`.
+    pub fn descend(&self, candidate: &Candidate, start: Fit) -> Fit {
+        let mut at = start.at;
+        let mut residual = self.differences(candidate, &at);
+        let mut cost = residual.norm_squared();
+        let mut damping = 1e-3;
+        let first = cost;
+        for step in 0..STEPS {
+            // Enough of it, or no sign that it leads anywhere.
+            if cost < 1.0 || step == 3 && cost > 0.5 * first.min(self.healthy_squared()) {
+                break;
+            }
+            let jacobian = self.jacobian(candidate, &at, &residual);
+            let normal = jacobian.transpose() * &jacobian;
+            let slope = jacobian.transpose() * &residual;
+            let before = cost;
+            for _ in 0..5 {
+                let mut damped = normal.clone();
+                for k in 0..damped.nrows() {
+                    damped[(k, k)] += damping * damped[(k, k)].max(1e-9);
+                }
+                let Some(step) = damped.cholesky().map(|known| known.solve(&slope)) else { break };
+                let tried = self.moved(candidate, &at, &step);
+                let there = self.differences(candidate, &tried);
+                if there.norm_squared() < cost {
+                    (at, cost, residual) = (tried, there.norm_squared(), there);
+                    damping = (damping * 0.1).max(1e-9);
+                    break;
+                }
+                damping *= 10.0;
+            }
+            if cost > 0.99 * before {
+                break;
+            }
+        }
+        let squared = self.squared(candidate, &at);
+        Fit { at, squared }
+    }
+
+    fn moved(&self, candidate: &Candidate, at: &[f64], step: &DVector<f64>) -> Vec<f64> {
+        let mut moved: Vec<f64> = at.iter().zip(step.iter()).map(|(at, step)| at - step).collect();
+        for ((value, old), free) in moved.iter_mut().zip(at).zip(&candidate.free) {
+            let most = if free.is_log { 1.5 } else { f64::INFINITY };
+            *value = value.clamp(old - most, old + most).clamp(free.range.0, free.range.1);
+        }
+        moved[candidate.free.len()..].iter_mut().for_each(|off| *off = off.clamp(-3.0, 3.0));
+        moved
+    }
+
+    fn jacobian(&self, candidate: &Candidate, at: &[f64], residual: &DVector<f64>) -> DMatrix<f64> {
+        let (own, unknown) = (candidate.free.len(), self.columns.len());
+        let mut jacobian = DMatrix::zeros(residual.len(), own + unknown);
+        for (k, free) in candidate.free.iter().enumerate() {
+            // Far enough that edges and counts move.
+            let mut small = free.small;
+            for _ in 0..4 {
+                let mut there = at.to_vec();
+                let side = if there[k] + small > free.range.1 { -small } else { small };
+                there[k] += side;
+                let change = self.differences(candidate, &there) - residual;
+                let is_seen = change.norm() > 2.0;
+                jacobian.set_column(k, &(change / side));
+                if is_seen {
+                    break;
+                }
+                small *= 8.0;
+            }
+        }
+        for (k, column) in self.columns.iter().enumerate() {
+            for (row, value) in column.iter().enumerate() {
+                jacobian[(row, own + k)] = *value;
+            }
+            jacobian[(residual.len() - unknown + k, own + k)] = 1.0;
+        }
+        jacobian
+    }
+
+    /// Trials of the exact distance, one coordinate at a time, each as far as it changes D by `far` and ever less, until D² is at most
+    /// `enough` or `trials` are used up.
+    pub fn polish(&self, candidate: &Candidate, from: Fit, enough: f64, trials: usize) -> Fit {
+        let mut best = from;
+        let residual = self.differences(candidate, &best.at);
+        let jacobian = self.jacobian(candidate, &best.at, &residual);
+        let mut steps: Vec<f64> = jacobian.column_iter().map(|column| 1.0 / column.norm().max(1e-9)).collect();
+        let far = (best.squared.sqrt()).clamp(1.0, 30.0);
+        steps.iter_mut().for_each(|step| *step *= far);
+        let mut left = trials;
+        while best.squared > enough && left > 0 {
+            let before = best.squared;
+            for k in 0..steps.len() {
+                for side in [1.0, -1.0] {
+                    let mut step = DVector::zeros(best.at.len());
+                    step[k] = side * steps[k];
+                    let at = self.moved(candidate, &best.at, &step);
+                    left = left.saturating_sub(1);
+                    let squared = self.squared(candidate, &at);
+                    if squared < best.squared {
+                        best = Fit { at, squared };
+                        steps[k] *= 2.0;
+                        break;
+                    }
+                    if side < 0.0 {
+                        steps[k] *= 0.4;
+                    }
+                }
+            }
+            if steps.iter().zip(jacobian.column_iter()).all(|(step, column)| step * column.norm() < 0.02)
+                && best.squared == before
+            {
+                break;
+            }
+        }
+        best
+    }
+}
+
+/// (1 + JᵀJ)⁻¹ of what is unknown.
+fn known(columns: &[Vec<f64>]) -> Option<DMatrix<f64>> {
+    let count = columns.len();
+    let own = |a: usize, b: usize| if a == b { 1.0 } else { 0.0 };
+    DMatrix::from_fn(count, count, |a, b| own(a, b) + product(&columns[a], &columns[b])).try_inverse()
+}
+
+/// The square of what is apart, less what the unknown takes of it.
+fn left(apart: &[f64], columns: &[Vec<f64>], known: Option<&DMatrix<f64>>) -> f64 {
+    let along = DVector::from_iterator(columns.len(), columns.iter().map(|column| product(column, apart)));
+    finite(product(apart, apart) - known.map_or(0.0, |known| along.dot(&(known * &along)))).max(0.0)
+}
+
+/// A spring that is stiffer than a step can follow flies away: no number is as far off as can be.
+fn finite(squared: f64) -> f64 {
+    if squared.is_finite() { squared } else { f64::INFINITY }
+}
+
+fn product(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,170 @@
+use super::candidate::{candidates, own};
+use super::*;
+use crate::bench::{axis_quirk, quirk};
+use crate::chance::Dice;
+use crate::plant::Command;
+use crate::record::Surroundings;
+use crate::rig::RigParameters;
+
+/// A device under these commands (s, port, value), heard every 10 ms by the table's figures.
+struct Rig {
+    built: RigParameters,
+    around: Surroundings,
+    device: &'static str,
+    script: Vec<Command>,
+}
+
+impl Rig {
+    fn new(device: &'static str, script: &[(f64, &str, f64)]) -> Rig {
+        let drawn = Surroundings::draw(&mut Dice::new(1, 2)).prompt();
+        let around = Surroundings { cycle: 0.01, phase: 0.004, noise: 1.0, noise_time: 3e-3, ..drawn };
+        let said = |&(at, port, value): &(f64, &str, f64)| Command { at, signal: format!("{device}.{port}"), value };
+        Rig { built: RigParameters::nominal(), around, device, script: script.iter().map(said).collect() }
+    }
+
+    fn alone(&self) -> Alone<'_> {
+        let Rig { built, around, device, script } = self;
+        Alone {
+            built,
+            around,
+            device,
+            script: script.clone(),
+            company: Vec::new(),
+            seed: 1,
+            share: 0.01 / 3.0_f64.sqrt(),
+        }
+    }
+
+    /// Grips of several lengths, blown off and not.
+    fn gripper() -> Rig {
+        let mut script = Vec::new();
+        for k in 0..12 {
+            let at = 0.1 + 0.5 * f64::from(k) + 0.013 * f64::from(k % 5);
+            script.extend([(at, "suctionOn", 1.0), (at + 0.3, "suctionOn", 0.0)]);
+            if k % 3 == 0 {
+                script.extend([(at + 0.3, "blowOn", 1.0), (at + 0.4, "blowOn", 0.0)]);
+            }
+        }
+        Rig::new("Gripper", &script)
+    }
+
+    /// Starts, stops and several speeds.
+    fn belt() -> Rig {
+        Rig::new(
+            "Belt",
+            &[
+                (0.2, "velocityTarget", 0.5),
+                (0.2, "motorDirection", 1.0),
+                (2.0, "velocityTarget", 0.25),
+                (3.0, "motorDirection", 0.0),
+                (3.6, "motorDirection", 1.0),
+                (4.0, "velocityTarget", 0.6),
+            ],
+        )
+    }
+
+    fn class(&self, truth: &Quirk, end: f64) -> Vec<String> {
+        class(&self.alone(), truth, end).iter().map(|member| format!("{} at {}", member.effect, member.place)).collect()
+    }
+
+    /// How near another effect comes to `truth`; of several, the nearest.
+    fn distance(&self, truth: &Quirk, other: &str, end: f64) -> f64 {
+        let (device, signals) = (self.alone(), self.alone().signals());
+        let measure = Measure::new(&device, &signals);
+        let look = Look::new(&device, &measure, truth, end);
+        let all = if other == truth.effect {
+            own(truth, self.device, &signals)
+        } else {
+            candidates(truth, self.device, &signals)
+        };
+        let meant = all.iter().filter(|candidate| candidate.quirk.effect == other);
+        meant.map(|candidate| look.distance(candidate)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn at(place: &str, quirk: Quirk) -> Quirk {
+    Quirk { place: place.to_owned(), ..quirk }
+}
+
+#[test]
+fn a_dead_time_of_a_gripper_is_on_either_link_and_a_leak_is_nothing_else() {
+    let late = |place| at(place, quirk("Gripper", "dead-time", &[("time", 0.03)]));
+    let rig = Rig::gripper();
+    for (one, other) in [("report-link", "command-link"), ("command-link", "report-link")] {
+        let class = rig.class(&late(one), 6.0);
+        assert_eq!(class[0], format!("dead-time at {one}"));
+        assert!(class.contains(&format!("dead-time at {other}")), "{class:?}");
+        assert!(!class.iter().any(|member| member.starts_with("switch-") || member.starts_with("on-")), "{class:?}");
+    }
+    let leak = at("process", quirk("Gripper", "leak", &[("rate", 8.0)]));
+    assert_eq!(rig.class(&leak, 6.0), ["leak at process"]);
+}
+
+#[test]
+fn what_takes_longer_to_build_up_may_as_well_be_seen_late() {
+    let slow = at("process", quirk("Gripper", "vacuum-build-up", &[("time", 0.04)]));
+    let class = Rig::gripper().class(&slow, 6.0);
+    let others = ["on-delay at sensor", "parameter-error at any", "switch-on-delay at actuator"];
+    assert!(others.iter().all(|other| class.contains(&(*other).to_owned())), "{class:?}");
+    assert!(!class.iter().any(|member| member.starts_with("dead-time") || member.starts_with("off-")), "{class:?}");
+}
+
+#[test]
+fn a_belt_that_slips_has_another_scale_and_no_other_gain() {
+    let slips = at("transmission", quirk("Belt", "belt-slip", &[("ratio", 0.1)]));
+    let rig = Rig::belt();
+    assert!(rig.distance(&slips, "scale-error", 8.0) <= SAME);
+    // The drive reports what it does.
+    assert!(rig.distance(&slips, "gain-error", 8.0) > 3.0 * SAME);
+    let scaled = at("transmission", quirk("Belt", "scale-error", &[("ratio", -0.1)]));
+    assert!(rig.distance(&scaled, "belt-slip", 8.0) <= SAME);
+    // It only ever loses.
+    let longer = at("transmission", quirk("Belt", "scale-error", &[("ratio", 0.1)]));
+    assert!(rig.distance(&longer, "belt-slip", 8.0) > 3.0 * SAME);
+}
+
+#[test]
+fn an_effect_refitted_by_itself_comes_to_nothing() {
+    let check = |rig: &Rig, truth: Quirk, end: f64| {
+        let distance = rig.distance(&truth, &truth.effect.clone(), end);
+        assert!(distance <= SAME, "{truth:?}: {distance}");
+    };
+    check(&Rig::gripper(), at("process", quirk("Gripper", "vacuum-build-up", &[("time", 0.033)])), 6.0);
+    check(&Rig::belt(), at("actuator", quirk("Belt", "first-order-lag", &[("time_constant", 0.07)])), 8.0);
+    let mut moves = vec![(0.1, "positionTarget", 0.05)];
+    moves.extend((0..60).map(|k| (0.8 + 0.02 * f64::from(k), "positionTarget", 0.05 + 0.002 * f64::from(k % 30))));
+    check(&Rig::new("Axis", &moves), at("mechanics", quirk("Axis", "coulomb-friction", &[("force", 7.0)])), 2.0);
+}
+
+#[test]
+fn candidates_act_where_the_truth_can_be_seen() {
+    let device = Rig::new("Robot", &[]);
+    let signals = device.alone().signals();
+    let lag = at("actuator", axis_quirk("Robot", "Z", "first-order-lag", &[("time_constant", 0.01)]));
+    let found = candidates(&lag, "Robot", &signals);
+    let has = |effect: &str, component: &str| {
+        found
+            .iter()
+            .any(|one| one.quirk.effect == effect && one.quirk.component.as_deref().unwrap_or_default() == component)
+    };
+    assert!(
+        has("gain-error", "Z") && has("dead-time", "ZTarget") && has("offset", "actualPosZ") && has("dead-time", "")
+    );
+    assert!(!has("gain-error", "X") && !has("dead-time", "XTarget") && !has("first-order-lag", "Z"));
+    // What leaves more to be found than the truth would hold it as a special case.
+    assert!(!has("second-order-lag", "Z") && !has("compliance", "Z") && !has("noise", "actualPosZ"));
+}
+
+#[test]
+fn a_link_as_a_whole_and_its_one_signal_are_one_member() {
+    let member = |component: Option<&str>, place: &str| Member {
+        device: "Belt".to_owned(),
+        component: component.map(str::to_owned),
+        effect: "dead-time".to_owned(),
+        place: place.to_owned(),
+    };
+    let (whole, part) = (member(None, "command-link"), member(Some("velocityTarget"), "command-link"));
+    let other = member(Some("velocityActual"), "report-link");
+    assert_eq!(once(vec![part.clone(), other.clone(), whole.clone()]), [part.clone(), other.clone()]);
+    assert_eq!(once(vec![other.clone(), part, whole.clone()]), [other, whole]);
+}
