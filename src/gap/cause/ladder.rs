@@ -58,6 +58,8 @@ pub struct Ladder {
     pub too_few_blocks: Option<f64>,
     /// On which blocks that were not seen an effect has to be worth having.
     pub folds: Folds,
+    /// Whether an effect that explains much of what is left was not worth having.
+    is_unsure: bool,
 }
 
 impl Ladder {
@@ -96,6 +98,7 @@ pub fn climb(
         tried: 0,
         too_few_blocks: None,
         folds: Folds::Long,
+        is_unsure: false,
     };
     if evidence(bench.subject, &prediction) <= THRESHOLD {
         return Some(ladder);
@@ -103,13 +106,14 @@ pub fn climb(
     ladder.subject = bench.subject.tolerant(&prediction);
     ladder.best = bench.with(&ladder.subject).trial(&[], ladder.bare.at.clone())?;
     loop {
+        ladder.is_unsure = false;
         while ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
             if !step(bench, &mut ladder, is_asked, tell) {
                 break;
             }
         }
-        let is_dropped = drop_idle(bench, &mut ladder);
-        if !is_dropped || !step_by_two(bench, &mut ladder, is_asked, tell) {
+        ladder.is_unsure |= drop_idle(bench, &mut ladder);
+        if !ladder.is_unsure || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }
     }
@@ -157,8 +161,11 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
         (ladder.best, ladder.subject) = choices.into_iter().nth(place).expect("the place of one of them");
         return true;
     }
-    if let (true, Some((next, subject))) = (below.set.is_empty(), choices.first()) {
-        ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
+    if let Some((next, subject)) = choices.first() {
+        if below.set.is_empty() {
+            ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
+        }
+        ladder.is_unsure = gain(next) >= LEAST_SHARE_OF_REST * excess;
     }
     false
 }
