@@ -10,16 +10,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::catalogue::{ENTRIES, Entry, Spot};
 use crate::chance::Dice;
+use crate::machine::Machine;
 use crate::magnitude::{Hidden, Magnitude, distance};
 use crate::plant::{Command, Plant};
 use crate::quirk::Quirk;
 use crate::record::{self, Seen, Surroundings};
-use crate::rig::RigParameters;
-use crate::script::{self, Part};
+use crate::script::Part;
+use crate::site::{Design, Site, Sites};
 
-/// The model that rig cases are diagnosed with, and the tolerance that it declares.
-const MODEL: &str = "models/rig-toleranced";
-const EXACT_MODEL: &str = "models/rig";
+/// The tolerance that the models declare.
 const TOLERANCE: f64 = 0.01;
 
 /// What sort of case one is.
@@ -63,9 +62,9 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The model that the cases are diagnosed with.
-    fn model(self) -> &'static str {
-        if self.exact { EXACT_MODEL } else { MODEL }
+    /// The tolerance that the model declares.
+    fn tolerance(self) -> f64 {
+        if self.exact { 0.0 } else { TOLERANCE }
     }
 }
 
@@ -73,6 +72,7 @@ impl Conditions {
 #[derive(Clone, Debug)]
 pub struct Plan {
     sort: Sort,
+    site: Site,
     magnitude: Magnitude,
     /// The effects that are to be tried first; what does not show enough in the recording is replaced.
     first: Vec<(usize, Spot)>,
@@ -121,8 +121,8 @@ impl Sizes {
     }
 }
 
-/// The cases of `seed`, in an order that says nothing.
-pub fn plans(sizes: Sizes, seed: u64) -> Vec<Plan> {
+/// The cases of `seed` at `sites`, in an order that says nothing.
+pub fn plans(sizes: Sizes, sites: Sites, seed: u64) -> Vec<Plan> {
     let mut dice = Dice::new(seed, 1);
     let mut library = Deck::new(false);
     let mut outside = Deck::new(true);
@@ -154,7 +154,8 @@ pub fn plans(sizes: Sizes, seed: u64) -> Vec<Plan> {
                     vec![one, two]
                 }
             };
-            plans.push(Plan { sort, magnitude, first, seed: dice.seed() });
+            let site = sites.site(plans.len());
+            plans.push(Plan { sort, site, magnitude, first, seed: dice.seed() });
         }
     }
     dice.shuffle(&mut plans);
@@ -197,7 +198,8 @@ impl Deck {
 
 /// A case that can be written.
 struct Bench {
-    built: RigParameters,
+    design: Design,
+    built: Box<dyn Machine>,
     around: Surroundings,
     scripts: [Vec<Command>; 2],
     seed: u64,
@@ -207,14 +209,16 @@ struct Bench {
 }
 
 impl Bench {
-    fn new(seed: u64, conditions: Conditions) -> Bench {
+    fn new(design: Design, seed: u64, conditions: Conditions) -> Bench {
         let mut dice = Dice::new(seed, 2);
-        let tolerance = if conditions.exact { 0.0 } else { TOLERANCE };
-        let built = RigParameters::built(tolerance, &mut dice);
+        let tolerance = conditions.tolerance();
+        let built = design.built(tolerance, &mut dice);
         let around = Surroundings::draw(&mut dice);
         let around = if conditions.prompt { around.prompt() } else { around };
-        let scripts = [Part::Train, Part::HeldOut].map(|part| record::heard(&script::program(part, &mut dice)));
-        Bench { built, around, scripts, seed, tolerance, hidden: RefCell::default() }
+        let known = built.commands();
+        let scripts = [Part::Train, Part::HeldOut];
+        let scripts = scripts.map(|part| record::heard(&design.machine().program(part, &mut dice), &known));
+        Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default() }
     }
 
     fn run(&self, part: Part, quirks: &[Quirk], around: &Surroundings) -> (Plant, Seen) {
@@ -241,7 +245,7 @@ impl Bench {
         let share = self.tolerance / 3.0_f64.sqrt();
         let larger = self.built.with_each_larger(device, share);
         let larger = if share > 0.0 { larger } else { Vec::new() };
-        let run = |built: &RigParameters| {
+        let run = |built: &Box<dyn Machine>| {
             let mut plant = built.plant(&[], self.seed ^ Part::Train as u64);
             let (script, part) = (&self.scripts[Part::Train as usize], Part::Train);
             record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64)
@@ -264,7 +268,7 @@ impl Bench {
     ) -> Option<(Quirk, f64)> {
         let (low, high) = magnitude.range();
         let at = |strength: f64| {
-            let quirk = entry.quirk(spot, strength, &mut Dice::new(seed, 3));
+            let quirk = self.design.machine().fitted(entry.quirk(spot, strength, &mut Dice::new(seed, 3)));
             let distance = self.distance(std::slice::from_ref(&quirk), healthy);
             (quirk, distance)
         };
@@ -308,17 +312,19 @@ impl Bench {
 impl Plan {
     /// Makes the case in `folder`, which it creates, and gives the truth about it.
     pub fn make(&self, folder: &Path, conditions: Conditions) -> io::Result<Answer> {
-        let bench = Bench::new(self.seed, conditions);
-        let model = conditions.model();
-        let (quirks, distance) = self.wrongs(&bench);
+        let (bench, quirks, distance) = self.bench(conditions);
+        let model = bench.design.model(conditions.exact);
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join("model"), format!("{model}\n"))?;
+        if let Some(xml) = bench.design.xml(conditions.tolerance()) {
+            std::fs::write(folder.join(model), xml)?;
+        }
         for (part, name) in [(Part::Train, "train"), (Part::HeldOut, "holdout")] {
             let (plant, seen) = bench.run(part, &quirks, &bench.around);
             let file = std::fs::File::create(folder.join(format!("{name}.cps.jsonl.zst")))?;
             let script = &bench.scripts[part as usize];
             let seed = bench.seed ^ part as u64;
-            record::write(io::BufWriter::new(file), model, script, &seen, &plant.signals, &bench.around, seed)?;
+            record::write(io::BufWriter::new(file), model, script, &seen, &plant, &bench.around, seed)?;
         }
         let case = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let magnitude = match self.sort {
@@ -336,6 +342,21 @@ impl Plan {
             effects: quirks,
             surroundings,
         })
+    }
+
+    /// The machine with what is wrong with it. A machine that can show too little of what was planned is drawn again.
+    fn bench(&self, conditions: Conditions) -> (Bench, Vec<Quirk>, f64) {
+        let wanted: Vec<&str> = self.first.iter().map(|(_, spot)| spot.0).collect();
+        let mut seeds = Dice::new(self.seed, 6);
+        let mut seed = self.seed;
+        loop {
+            let bench = Bench::new(self.site.design(&wanted, seed), seed, conditions);
+            let (quirks, distance) = self.wrongs(&bench);
+            if quirks.len() == self.first.len() {
+                return (bench, quirks, distance);
+            }
+            seed = seeds.seed();
+        }
     }
 
     fn wrongs(&self, bench: &Bench) -> (Vec<Quirk>, f64) {
@@ -360,7 +381,7 @@ impl Plan {
                 let taken: Vec<String> = quirks.iter().map(|quirk| quirk.effect.clone()).collect();
                 (entry, spot) = deck.next(&mut dice, |entry, spot| {
                     let fits = is_single || spot.0 == device && !taken.iter().any(|one| one == entry.effect);
-                    fits && (entry.has_strength() || !graded && is_single)
+                    fits && bench.design.machine().has(spot.0) && (entry.has_strength() || !graded && is_single)
                 });
             }
         }

@@ -72,6 +72,8 @@ pub struct Command {
 #[derive(Debug)]
 pub struct Plant {
     pub devices: Vec<(String, Box<dyn Device>)>,
+    /// What it can be told, in the order of the first message.
+    pub commands: Vec<(String, Kind)>,
     pub signals: Vec<Signal>,
     pub quirks: Vec<Quirk>,
 }
