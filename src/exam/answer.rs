@@ -70,6 +70,9 @@ pub struct Answer {
     pub sort: Sort,
     pub magnitude: Magnitude,
     pub effects: Vec<TrueEffect>,
+    /// What kind of device the first effect is on, by the names of the rig: plants give their devices names of their own.
+    #[serde(default)]
+    pub kind: Option<String>,
 }
 
 impl Answer {

@@ -48,6 +48,9 @@ pub struct Answer {
     /// Of the whole, in the training recording.
     pub distance: f64,
     pub effects: Vec<Quirk>,
+    /// What the rig calls a device of the kind of the first effect's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<String>,
     /// How the machine was listened to.
     pub surroundings: Surroundings,
 }
@@ -339,6 +342,7 @@ impl Plan {
             sort: self.sort,
             magnitude,
             distance,
+            kind: quirks.first().map(|quirk| bench.design.machine().kind(&quirk.device)),
             effects: quirks,
             surroundings,
         })

@@ -18,6 +18,8 @@ pub trait Machine {
     fn with_each_larger(&self, device: &str, share: f64) -> Vec<Box<dyn Machine>>;
     /// Whether it has what stands for a device of the rig.
     fn has(&self, device: &str) -> bool;
+    /// What the rig calls a device of the kind of the one called `device`.
+    fn kind(&self, device: &str) -> String;
     /// What was drawn for a device of the rig, as it is for the one that stands for it here.
     fn fitted(&self, quirk: Quirk) -> Quirk;
 }
@@ -42,6 +44,10 @@ impl Machine for RigParameters {
 
     fn has(&self, _device: &str) -> bool {
         true
+    }
+
+    fn kind(&self, device: &str) -> String {
+        device.to_owned()
     }
 
     fn fitted(&self, quirk: Quirk) -> Quirk {

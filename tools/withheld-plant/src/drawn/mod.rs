@@ -121,6 +121,12 @@ impl Machine for Drawn {
         self.host(device).is_some()
     }
 
+    fn kind(&self, device: &str) -> String {
+        let unit = self.units.iter().find(|unit| unit.name == device);
+        // What is no device of it is the bay that feeds one.
+        unit.map_or("Feed", |unit| unit.figures.kind()).to_owned()
+    }
+
     fn fitted(&self, quirk: Quirk) -> Quirk {
         let Some(host) = self.host(&quirk.device) else { return quirk };
         let name = match (&host.figures, quirk.device.as_str()) {

@@ -129,6 +129,7 @@ fn every_effect_of_the_catalogue_is_put_on_a_device_that_is_there() {
             let is_feed = |unit: &Unit| matches!(&unit.figures, Figures::Belt { feed, .. } if *feed == quirk.device);
             let is_there = |unit: &&Unit| unit.name == quirk.device && spot.0 != "Feed" || is_feed(unit);
             let unit = plant.units.iter().find(is_there).unwrap_or_else(|| panic!("{quirk:?} is nowhere"));
+            assert_eq!(plant.kind(&quirk.device), spot.0);
             assert_eq!(unit.figures.kind(), if spot.0 == "Feed" { "Belt" } else { spot.0 });
             assert!(quirk.parameters.iter().all(|(_, value)| value.is_finite()), "{quirk:?}");
         }
