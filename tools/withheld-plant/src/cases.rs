@@ -12,7 +12,7 @@ use crate::catalogue::{ENTRIES, Entry, Spot};
 use crate::chance::Dice;
 use crate::machine::Machine;
 use crate::magnitude::{Hidden, Magnitude, distance};
-use crate::plant::{Command, Plant};
+use crate::plant::{Command, Plant, Signal};
 use crate::quirk::Quirk;
 use crate::record::{self, Seen, Surroundings};
 use crate::script::Part;
@@ -143,21 +143,24 @@ pub fn plans(sizes: Sizes, sites: Sites, seed: u64) -> Vec<Plan> {
         for k in 0..count {
             let magnitude = magnitude.unwrap_or(clear(k));
             let graded = magnitude == Magnitude::Faint || magnitude == Magnitude::BelowNoise;
+            let site = sites.site(plans.len());
             let first = match sort {
                 Sort::None => Vec::new(),
-                Sort::Single => vec![library.next(&mut dice, |entry, _| entry.has_strength() || !graded)],
-                Sort::Outside => vec![outside.next(&mut dice, |_, _| true)],
+                Sort::Single => vec![
+                    library.next(&mut dice, |entry, spot| site.fits(entry, spot) && (entry.has_strength() || !graded)),
+                ],
+                Sort::Outside => vec![outside.next(&mut dice, |entry, spot| site.fits(entry, spot))],
                 Sort::TwoOnOneDevice | Sort::OneOnEachOfTwo => {
-                    let one = library.next(&mut dice, |entry, _| entry.has_strength());
+                    let one = library.next(&mut dice, |entry, spot| site.fits(entry, spot) && entry.has_strength());
                     let same = sort == Sort::TwoOnOneDevice;
-                    let two = library.next(&mut dice, |entry, (device, ..)| {
+                    let two = library.next(&mut dice, |entry, spot| {
                         let other = entry.effect != ENTRIES[one.0].effect && entry.place != ENTRIES[one.0].place;
-                        entry.has_strength() && (device == one.1.0) == same && (other || !same)
+                        let is_where = (spot.0 == one.1.0) == same && site.fits(entry, spot);
+                        entry.has_strength() && is_where && (other || !same)
                     });
                     vec![one, two]
                 }
             };
-            let site = sites.site(plans.len());
             plans.push(Plan { sort, site, magnitude, first, seed: dice.seed() });
         }
     }
@@ -220,7 +223,10 @@ impl Bench {
         let around = if conditions.prompt { around.prompt() } else { around };
         let known = built.commands();
         let scripts = [Part::Train, Part::HeldOut];
-        let scripts = scripts.map(|part| record::heard(&design.machine().program(part, &mut dice), &known));
+        // What the devices of one plant do to each other depends on how it was built.
+        let told = if design.is_connected() { &*built } else { design.machine() };
+        let scripts =
+            scripts.map(|part| record::heard(&told.program(part, &[], seed ^ part as u64, &mut dice), &known));
         Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default() }
     }
 
@@ -231,10 +237,35 @@ impl Bench {
         (plant, seen)
     }
 
+    /// What was told and seen while it had these effects: where devices touch each other, their automation answers to them.
+    fn recorded(&self, part: Part, quirks: &[Quirk]) -> (Vec<Command>, Plant, Seen) {
+        let seed = self.seed ^ part as u64;
+        let script = match self.design.is_connected() {
+            true => {
+                let told = self.built.program(part, quirks, seed, &mut Dice::new(seed, 9));
+                record::heard(&told, &self.built.commands())
+            }
+            false => self.scripts[part as usize].clone(),
+        };
+        let mut plant = self.built.plant(quirks, seed);
+        let seen = record::watch(&mut plant, &script, &self.around, part.seconds(), seed);
+        (script, plant, seen)
+    }
+
+    /// A run with what others than these devices report as `healthy` has it, where what befalls one shows in others.
+    fn of_devices(&self, mut seen: Seen, healthy: &Seen, signals: &[Signal], devices: &BTreeSet<&str>) -> Seen {
+        let others = signals.iter().enumerate().filter(|(_, signal)| !devices.contains(signal.parts().0));
+        for (at, _) in others.filter(|_| self.design.is_connected()) {
+            seen.values.iter_mut().zip(&healthy.values).for_each(|(one, other)| one[at] = other[at]);
+        }
+        seen
+    }
+
     /// How far these effects carry the training recording from what it would be.
     fn distance(&self, quirks: &[Quirk], healthy: &Seen) -> f64 {
         let (plant, seen) = self.run(Part::Train, quirks, &self.around);
         let devices: BTreeSet<&str> = quirks.iter().map(|quirk| quirk.device.as_str()).collect();
+        let seen = self.of_devices(seen, healthy, &plant.signals, &devices);
         let hidden: Vec<Rc<Hidden>> = devices.into_iter().map(|device| self.hidden(device, healthy)).collect();
         distance(&seen, healthy, &plant.signals, &self.around, &hidden)
     }
@@ -248,13 +279,14 @@ impl Bench {
         let share = self.tolerance / 3.0_f64.sqrt();
         let larger = self.built.with_each_larger(device, share);
         let larger = if share > 0.0 { larger } else { Vec::new() };
+        let signals = self.built.plant(&[], 0).signals;
         let run = |built: &Box<dyn Machine>| {
             let mut plant = built.plant(&[], self.seed ^ Part::Train as u64);
             let (script, part) = (&self.scripts[Part::Train as usize], Part::Train);
-            record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64)
+            let seen = record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64);
+            self.of_devices(seen, healthy, &signals, &[device].into())
         };
         let moved: Vec<Seen> = larger.iter().map(run).collect();
-        let signals = self.built.plant(&[], 0).signals;
         let hidden = Rc::new(Hidden::new(&moved, healthy, &signals, &self.around));
         self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
         hidden
@@ -323,11 +355,10 @@ impl Plan {
             std::fs::write(folder.join(model), xml)?;
         }
         for (part, name) in [(Part::Train, "train"), (Part::HeldOut, "holdout")] {
-            let (plant, seen) = bench.run(part, &quirks, &bench.around);
+            let (script, plant, seen) = bench.recorded(part, &quirks);
             let file = std::fs::File::create(folder.join(format!("{name}.cps.jsonl.zst")))?;
-            let script = &bench.scripts[part as usize];
             let seed = bench.seed ^ part as u64;
-            record::write(io::BufWriter::new(file), model, script, &seen, &plant, &bench.around, seed)?;
+            record::write(io::BufWriter::new(file), model, &script, &seen, &plant, &bench.around, seed)?;
         }
         let case = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let magnitude = match self.sort {
@@ -385,7 +416,8 @@ impl Plan {
                 let taken: Vec<String> = quirks.iter().map(|quirk| quirk.effect.clone()).collect();
                 (entry, spot) = deck.next(&mut dice, |entry, spot| {
                     let fits = is_single || spot.0 == device && !taken.iter().any(|one| one == entry.effect);
-                    fits && bench.design.machine().has(spot.0) && (entry.has_strength() || !graded && is_single)
+                    let is_there = bench.design.machine().has(spot.0) && self.site.fits(entry, spot);
+                    fits && is_there && (entry.has_strength() || !graded && is_single)
                 });
             }
         }

@@ -12,8 +12,8 @@ pub trait Machine {
     fn plant(&self, quirks: &[Quirk], seed: u64) -> Plant;
     /// What it can be told, in the order of the first message.
     fn commands(&self) -> Vec<(String, Kind)>;
-    /// What its automation tells it.
-    fn program(&self, part: Part, dice: &mut Dice) -> Vec<Command>;
+    /// What its automation tells it while it has `quirks`; `seed` is that of what befalls its boxes.
+    fn program(&self, part: Part, quirks: &[Quirk], seed: u64, dice: &mut Dice) -> Vec<Command>;
     /// The same with each measure of a device larger by `share` of itself, one at a time.
     fn with_each_larger(&self, device: &str, share: f64) -> Vec<Box<dyn Machine>>;
     /// Whether it has what stands for a device of the rig.
@@ -33,7 +33,7 @@ impl Machine for RigParameters {
         rig::commands()
     }
 
-    fn program(&self, part: Part, dice: &mut Dice) -> Vec<Command> {
+    fn program(&self, part: Part, _quirks: &[Quirk], _seed: u64, dice: &mut Dice) -> Vec<Command> {
         script::program(part, dice)
     }
 

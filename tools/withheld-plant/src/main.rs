@@ -15,6 +15,7 @@ mod drawn;
 mod drive;
 mod exam;
 mod gripper;
+mod line;
 mod machine;
 mod magnitude;
 mod motor;

@@ -6,7 +6,7 @@ use crate::quirk::Quirk;
 use crate::stream::Stream;
 
 /// The longest step, s. Steps end at every command and every sample besides.
-const STEP: f64 = 1e-4;
+pub const STEP: f64 = 1e-4;
 
 /// One machine.
 pub trait Device: fmt::Debug + Send {
@@ -110,14 +110,16 @@ impl Plant {
         }
     }
 
-    fn tell(&mut self, now: f64, command: &Command) {
+    /// A command arrives.
+    pub fn tell(&mut self, now: f64, command: &Command) {
         let Some((device, port)) = command.signal.split_once('.') else { return };
         if let Some((_, told)) = self.devices.iter_mut().find(|(name, _)| name == device) {
             told.command(now, port, command.value);
         }
     }
 
-    fn advance(&mut self, now: f64, span: f64) {
+    /// Everything moves on by `span` until `now`.
+    pub fn advance(&mut self, now: f64, span: f64) {
         let moving = self.devices.iter().filter(|(_, device)| device.moves()).count();
         for (_, device) in &mut self.devices {
             let others = moving - usize::from(device.moves());

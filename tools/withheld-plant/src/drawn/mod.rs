@@ -14,7 +14,8 @@ use crate::plant::{Command, Kind, Plant};
 use crate::quirk::Quirk;
 use crate::script::{Part, Program};
 use figures::KINDS;
-use unit::{Figures, Unit};
+pub use sizes::fitted;
+pub use unit::{Figures, Unit};
 
 /// The fewest and the most devices of a plant.
 const FEWEST: usize = 3;
@@ -98,7 +99,7 @@ impl Machine for Drawn {
         self.units.iter().flat_map(Unit::commands).collect()
     }
 
-    fn program(&self, part: Part, dice: &mut Dice) -> Vec<Command> {
+    fn program(&self, part: Part, _quirks: &[Quirk], _seed: u64, dice: &mut Dice) -> Vec<Command> {
         let mut program = Program::new(part);
         for unit in &self.units {
             unit.program(&mut program, dice);
@@ -133,7 +134,7 @@ impl Machine for Drawn {
             (Figures::Belt { feed, .. }, "Feed") => feed,
             _ => &host.name,
         };
-        Quirk { device: name.clone(), ..sizes::fitted(quirk, &host.figures) }
+        Quirk { device: name.clone(), ..fitted(quirk, &host.figures) }
     }
 }
 

@@ -51,7 +51,7 @@ fn devices_read_as_many_values_as_there_are_signals_and_take_every_command() {
         plant.devices.iter().for_each(|(_, device)| device.read(0.0, &mut values));
         assert_eq!(values.len(), plant.signals.len(), "seed {seed}");
         let commands: Vec<(String, Kind)> = plant.commands.clone();
-        let program = drawn(seed).program(Part::Train, &mut Dice::new(seed, 2));
+        let program = drawn(seed).program(Part::Train, &[], 1, &mut Dice::new(seed, 2));
         for (name, _) in &commands {
             assert!(program.iter().any(|command| command.signal == *name), "seed {seed}: nothing tells {name}");
         }
