@@ -280,13 +280,13 @@ impl Bench {
         let larger = self.built.with_each_larger(device, share);
         let larger = if share > 0.0 { larger } else { Vec::new() };
         let signals = self.built.plant(&[], 0).signals;
-        let run = |built: &Box<dyn Machine>| {
+        let run = |built: &dyn Machine| {
             let mut plant = built.plant(&[], self.seed ^ Part::Train as u64);
             let (script, part) = (&self.scripts[Part::Train as usize], Part::Train);
             let seen = record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64);
             self.of_devices(seen, healthy, &signals, &[device].into())
         };
-        let moved: Vec<Seen> = larger.iter().map(run).collect();
+        let moved: Vec<Seen> = larger.iter().map(|built| run(&**built)).collect();
         let hidden = Rc::new(Hidden::new(&moved, healthy, &signals, &self.around));
         self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
         hidden

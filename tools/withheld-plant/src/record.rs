@@ -267,8 +267,8 @@ fn value(kind: Kind, number: f64) -> Value {
     }
 }
 
-/// The script as a plant that takes the commands `known` hears it: every message through the wire and back, so that no number is finer than what
-/// travels.
+/// The script as a plant that takes the commands `known` hears it: every message through the wire and back, so that no number
+/// is finer than what travels.
 pub fn heard(script: &[Command], known: &[(String, Kind)]) -> Vec<Command> {
     let mut heard = Vec::new();
     for said in commands(script, known).into_iter().skip(1) {

@@ -5,6 +5,7 @@
 //! and rest now and then, so that its drives show what they can.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 use super::{EXITS, FLOW};
 use crate::chance::Dice;
@@ -24,7 +25,7 @@ const TURN_AFTER: u32 = 3;
 const GONE: f64 = 4.0;
 /// X, Y, Z and R above the columns of a pallet and above the set-down place, as high as it travels or a little lower.
 const WAYPOINTS: [[f64; 4]; 4] =
-    [[-0.4, 0.0, -0.4, 1.5708], [0.0, 0.0, -0.6, 1.5708], [0.4, 0.0, -0.4, 1.5708], [0.0, 1.2, -0.4, 0.0]];
+    [[-0.4, 0.0, -0.4, FRAC_PI_2], [0.0, 0.0, -0.6, FRAC_PI_2], [0.4, 0.0, -0.4, FRAC_PI_2], [0.0, 1.2, -0.4, 0.0]];
 
 /// Runs `plant` under the controller for `part`; gives what it was told.
 pub fn take_through(plant: &mut Plant, part: Part, dice: &mut Dice) -> Vec<Command> {

@@ -203,22 +203,23 @@ impl Floor {
                 Some(radius) => radius * (part.half / (radius - HALF_WIDTH)).atan(),
                 None => part.half,
             };
-            for barrier in 0..2 {
-                let off = (part.at - bed.barriers[barrier]).abs();
-                cut[part.belt][barrier] |= off < reach - bed.hidden[barrier];
-            }
+            sees(&mut cut[part.belt], bed, part.at, reach);
             // With its centre already on this belt it may still lie in a beam of the one before.
             let before = part.belt.checked_sub(1).filter(|before| self.beds[*before].next == Some(part.belt));
             let Some(before) = before.filter(|_| part.at < part.half) else { continue };
             let bed = &self.beds[before];
-            for barrier in 0..2 {
-                let off = (bed.length + part.at - bed.barriers[barrier]).abs();
-                cut[before][barrier] |= off < part.half - bed.hidden[barrier];
-            }
+            sees(&mut cut[before], bed, bed.length + part.at, part.half);
         }
         for (bed, cut) in self.beds.iter_mut().zip(cut) {
             bed.beams.iter_mut().zip(cut).for_each(|(beam, cut)| beam.see(cut, bed.travel));
         }
+    }
+}
+
+/// Marks the barriers of a bed that are cut by what reaches so far either way from `at`.
+fn sees(cut: &mut [bool; 2], bed: &Bed, at: f64, reach: f64) {
+    for ((cut, barrier), hidden) in cut.iter_mut().zip(bed.barriers).zip(bed.hidden) {
+        *cut |= (at - barrier).abs() < reach - hidden;
     }
 }
 
