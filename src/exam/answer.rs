@@ -84,6 +84,9 @@ pub struct Answer {
     /// of faint cases, of several effects, and in answers that were sealed before there were classes.
     #[serde(default)]
     pub class: Vec<ClassMember>,
+    /// What kind of device the first effect is on, by the names of the rig: plants give their devices names of their own.
+    #[serde(default)]
+    pub kind: Option<String>,
 }
 
 impl Answer {

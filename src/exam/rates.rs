@@ -96,7 +96,7 @@ pub struct Exam {
     /// How many cases it has.
     pub cases: usize,
     pub rates: Rates,
-    /// `single_right` by magnitude, and at magnitudes that count by device.
+    /// `single_right` by magnitude, and at magnitudes that count by kind of device.
     pub by_magnitude: BTreeMap<String, Rate>,
     pub by_device: BTreeMap<String, Rate>,
     /// What was answered, by what was true; each with how often.
@@ -152,7 +152,7 @@ impl Exam {
             by_magnitude: grouped(&judged, |one| Some(one.magnitude.name().to_owned())),
             by_device: grouped(&judged, |one| {
                 let device = one.truth.first().filter(|_| one.magnitude.counts())?.split(['.', ':']).next();
-                device.map(str::to_owned)
+                one.kind.clone().or(device.map(str::to_owned))
             }),
             confusion: confusion(&judged),
             true_classes: Spread::of(judged.iter().filter(counts).filter_map(|one| one.true_class_size)),

@@ -15,7 +15,7 @@ fn truth(device: &str, effect: &str, place: &str) -> TrueEffect {
 }
 
 fn answer(case: &str, sort: Sort, magnitude: Magnitude, effects: Vec<TrueEffect>) -> Answer {
-    Answer { case: case.to_owned(), sort, magnitude, effects, class: Vec::new() }
+    Answer { case: case.to_owned(), sort, magnitude, effects, class: Vec::new(), kind: None }
 }
 
 fn report(verdict: Verdict, causes: &[(&str, &str, EffectPlace)]) -> Report {
@@ -148,6 +148,7 @@ fn sealed_answers_are_read_and_what_is_none_is_said_to_be_none() {
         "sort":"one-on-each-of-two","magnitude":"below-noise","distance":0.5,"effects":[{"device":"Axis","effect":"backlash",
         "place":"transmission","parameters":[["gap",0.001]]}],"surroundings":{"cycle":0.02}}]}"#;
     let (seed, answers) = read_answers(text).expect("answers");
+    assert_eq!(answers[0].kind, None, "answers that name no kind are read too");
     assert_eq!((seed, answers[0].sort, answers[0].magnitude), (7, Sort::OneOnEachOfTwo, Magnitude::BelowNoise));
     assert!(read_answers(b"{}").expect_err("none").to_string().contains("expected what withheld-plant sealed"));
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::site::Sites;
+
 /// Plants that share nothing with the diagnosis, and cases of them whose answers are sealed.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, arg_required_else_help = true, after_long_help = HELP)]
@@ -50,12 +52,15 @@ pub struct Practice {
     /// Reports of no age, tasks that take commands at once, unfiltered flags
     #[arg(long)]
     pub prompt: bool,
-    /// Machines built exactly to their figures, for models/rig, which tolerates nothing
+    /// Machines built exactly to their figures, for models that tolerate nothing, such as models/rig
     #[arg(long)]
     pub exact: bool,
     /// Answers without the classes of effects that cannot be told apart, which take seconds a case
     #[arg(long)]
     pub no_classes: bool,
+    /// Which plants the cases are of
+    #[arg(long, value_enum, default_value_t = Sites::All)]
+    pub on: Sites,
 }
 
 #[derive(Debug, Args)]

@@ -11,16 +11,15 @@ use serde::{Deserialize, Serialize};
 use crate::catalogue::{ENTRIES, Entry, Spot};
 use crate::chance::Dice;
 use crate::classes::{self, Alone};
+use crate::machine::Machine;
 use crate::magnitude::{Hidden, Magnitude, distance};
-use crate::plant::{Command, Plant};
+use crate::plant::{Command, Plant, Signal};
 use crate::quirk::{Member, Quirk};
 use crate::record::{self, Seen, Surroundings};
-use crate::rig::RigParameters;
-use crate::script::{self, Part};
+use crate::script::Part;
+use crate::site::{Design, Site, Sites};
 
-/// The model that rig cases are diagnosed with, and the tolerance that it declares.
-const MODEL: &str = "models/rig-toleranced";
-const EXACT_MODEL: &str = "models/rig";
+/// The tolerance that the models declare.
 const TOLERANCE: f64 = 0.01;
 
 /// What sort of case one is.
@@ -53,6 +52,9 @@ pub struct Answer {
     /// All effects that nobody can tell from the one effect in this recording, itself first: of one that is clear or gross.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub class: Vec<Member>,
+    /// What the rig calls a device of the kind of the first effect's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<String>,
     /// How the machine was listened to.
     pub surroundings: Surroundings,
 }
@@ -69,9 +71,9 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The model that the cases are diagnosed with.
-    fn model(self) -> &'static str {
-        if self.exact { EXACT_MODEL } else { MODEL }
+    /// The tolerance that the model declares.
+    fn tolerance(self) -> f64 {
+        if self.exact { 0.0 } else { TOLERANCE }
     }
 }
 
@@ -79,6 +81,7 @@ impl Conditions {
 #[derive(Clone, Debug)]
 pub struct Plan {
     sort: Sort,
+    site: Site,
     magnitude: Magnitude,
     /// The effects that are to be tried first; what does not show enough in the recording is replaced.
     first: Vec<(usize, Spot)>,
@@ -127,8 +130,8 @@ impl Sizes {
     }
 }
 
-/// The cases of `seed`, in an order that says nothing.
-pub fn plans(sizes: Sizes, seed: u64) -> Vec<Plan> {
+/// The cases of `seed` at `sites`, in an order that says nothing.
+pub fn plans(sizes: Sizes, sites: Sites, seed: u64) -> Vec<Plan> {
     let mut dice = Dice::new(seed, 1);
     let mut library = Deck::new(false);
     let mut outside = Deck::new(true);
@@ -146,21 +149,25 @@ pub fn plans(sizes: Sizes, seed: u64) -> Vec<Plan> {
         for k in 0..count {
             let magnitude = magnitude.unwrap_or(clear(k));
             let graded = magnitude == Magnitude::Faint || magnitude == Magnitude::BelowNoise;
+            let site = sites.site(plans.len());
             let first = match sort {
                 Sort::None => Vec::new(),
-                Sort::Single => vec![library.next(&mut dice, |entry, _| entry.has_strength() || !graded)],
-                Sort::Outside => vec![outside.next(&mut dice, |_, _| true)],
+                Sort::Single => vec![
+                    library.next(&mut dice, |entry, spot| site.fits(entry, spot) && (entry.has_strength() || !graded)),
+                ],
+                Sort::Outside => vec![outside.next(&mut dice, |entry, spot| site.fits(entry, spot))],
                 Sort::TwoOnOneDevice | Sort::OneOnEachOfTwo => {
-                    let one = library.next(&mut dice, |entry, _| entry.has_strength());
+                    let one = library.next(&mut dice, |entry, spot| site.fits(entry, spot) && entry.has_strength());
                     let same = sort == Sort::TwoOnOneDevice;
-                    let two = library.next(&mut dice, |entry, (device, ..)| {
+                    let two = library.next(&mut dice, |entry, spot| {
                         let other = entry.effect != ENTRIES[one.0].effect && entry.place != ENTRIES[one.0].place;
-                        entry.has_strength() && (device == one.1.0) == same && (other || !same)
+                        let is_where = (spot.0 == one.1.0) == same && site.fits(entry, spot);
+                        entry.has_strength() && is_where && (other || !same)
                     });
                     vec![one, two]
                 }
             };
-            plans.push(Plan { sort, magnitude, first, seed: dice.seed() });
+            plans.push(Plan { sort, site, magnitude, first, seed: dice.seed() });
         }
     }
     dice.shuffle(&mut plans);
@@ -203,7 +210,8 @@ impl Deck {
 
 /// A case that can be written.
 struct Bench {
-    built: RigParameters,
+    design: Design,
+    built: Box<dyn Machine>,
     around: Surroundings,
     scripts: [Vec<Command>; 2],
     seed: u64,
@@ -213,14 +221,19 @@ struct Bench {
 }
 
 impl Bench {
-    fn new(seed: u64, conditions: Conditions) -> Bench {
+    fn new(design: Design, seed: u64, conditions: Conditions) -> Bench {
         let mut dice = Dice::new(seed, 2);
-        let tolerance = if conditions.exact { 0.0 } else { TOLERANCE };
-        let built = RigParameters::built(tolerance, &mut dice);
+        let tolerance = conditions.tolerance();
+        let built = design.built(tolerance, &mut dice);
         let around = Surroundings::draw(&mut dice);
         let around = if conditions.prompt { around.prompt() } else { around };
-        let scripts = [Part::Train, Part::HeldOut].map(|part| record::heard(&script::program(part, &mut dice)));
-        Bench { built, around, scripts, seed, tolerance, hidden: RefCell::default() }
+        let known = built.commands();
+        let scripts = [Part::Train, Part::HeldOut];
+        // What the devices of one plant do to each other depends on how it was built.
+        let told = if design.is_connected() { &*built } else { design.machine() };
+        let scripts =
+            scripts.map(|part| record::heard(&told.program(part, &[], seed ^ part as u64, &mut dice), &known));
+        Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default() }
     }
 
     fn run(&self, part: Part, quirks: &[Quirk], around: &Surroundings) -> (Plant, Seen) {
@@ -230,10 +243,35 @@ impl Bench {
         (plant, seen)
     }
 
+    /// What was told and seen while it had these effects: where devices touch each other, their automation answers to them.
+    fn recorded(&self, part: Part, quirks: &[Quirk]) -> (Vec<Command>, Plant, Seen) {
+        let seed = self.seed ^ part as u64;
+        let script = match self.design.is_connected() {
+            true => {
+                let told = self.built.program(part, quirks, seed, &mut Dice::new(seed, 9));
+                record::heard(&told, &self.built.commands())
+            }
+            false => self.scripts[part as usize].clone(),
+        };
+        let mut plant = self.built.plant(quirks, seed);
+        let seen = record::watch(&mut plant, &script, &self.around, part.seconds(), seed);
+        (script, plant, seen)
+    }
+
+    /// A run with what others than these devices report as `healthy` has it, where what befalls one shows in others.
+    fn of_devices(&self, mut seen: Seen, healthy: &Seen, signals: &[Signal], devices: &BTreeSet<&str>) -> Seen {
+        let others = signals.iter().enumerate().filter(|(_, signal)| !devices.contains(signal.parts().0));
+        for (at, _) in others.filter(|_| self.design.is_connected()) {
+            seen.values.iter_mut().zip(&healthy.values).for_each(|(one, other)| one[at] = other[at]);
+        }
+        seen
+    }
+
     /// How far these effects carry the training recording from what it would be.
     fn distance(&self, quirks: &[Quirk], healthy: &Seen) -> f64 {
         let (plant, seen) = self.run(Part::Train, quirks, &self.around);
         let devices: BTreeSet<&str> = quirks.iter().map(|quirk| quirk.device.as_str()).collect();
+        let seen = self.of_devices(seen, healthy, &plant.signals, &devices);
         let hidden: Vec<Rc<Hidden>> = devices.into_iter().map(|device| self.hidden(device, healthy)).collect();
         distance(&seen, healthy, &plant.signals, &self.around, &hidden)
     }
@@ -247,20 +285,22 @@ impl Bench {
         let share = self.tolerance / 3.0_f64.sqrt();
         let larger = self.built.with_each_larger(device, share);
         let larger = if share > 0.0 { larger } else { Vec::new() };
-        let run = |built: &RigParameters| {
+        let signals = self.built.plant(&[], 0).signals;
+        let run = |built: &dyn Machine| {
             let mut plant = built.plant(&[], self.seed ^ Part::Train as u64);
             let (script, part) = (&self.scripts[Part::Train as usize], Part::Train);
-            record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64)
+            let seen = record::watch(&mut plant, script, &self.around, part.seconds(), self.seed ^ part as u64);
+            self.of_devices(seen, healthy, &signals, &[device].into())
         };
-        let moved: Vec<Seen> = larger.iter().map(run).collect();
-        let signals = self.built.plant(&[], 0).signals;
+        let moved: Vec<Seen> = larger.iter().map(|built| run(&**built)).collect();
         let hidden = Rc::new(Hidden::new(&moved, healthy, &signals, &self.around));
         self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
         hidden
     }
 
-    /// What nobody can tell from `quirk` in the training recording.
+    /// What nobody can tell from `quirk` in the training recording; of another plant than the rig nothing is known of that.
     fn class(&self, quirk: &Quirk) -> Vec<Member> {
+        let Some(built) = self.built.rig() else { return Vec::new() };
         // A bay is told by the belt that it feeds.
         let device = if quirk.device == "Feed" { "Belt" } else { &quirk.device };
         let (plant, _) = self.run(Part::Train, std::slice::from_ref(quirk), &self.around);
@@ -269,7 +309,7 @@ impl Bench {
         let script = &self.scripts[Part::Train as usize];
         let own = |command: &&Command| command.signal.split_once('.').is_some_and(|(of, _)| of == device);
         let alone = Alone {
-            built: &self.built,
+            built,
             around: &self.around,
             device,
             script: script.iter().filter(own).cloned().collect(),
@@ -291,7 +331,7 @@ impl Bench {
     ) -> Option<(Quirk, f64)> {
         let (low, high) = magnitude.range();
         let at = |strength: f64| {
-            let quirk = entry.quirk(spot, strength, &mut Dice::new(seed, 3));
+            let quirk = self.design.machine().fitted(entry.quirk(spot, strength, &mut Dice::new(seed, 3)));
             let distance = self.distance(std::slice::from_ref(&quirk), healthy);
             (quirk, distance)
         };
@@ -335,17 +375,18 @@ impl Bench {
 impl Plan {
     /// Makes the case in `folder`, which it creates, and gives the truth about it.
     pub fn make(&self, folder: &Path, conditions: Conditions) -> io::Result<Answer> {
-        let bench = Bench::new(self.seed, conditions);
-        let model = conditions.model();
-        let (quirks, distance) = self.wrongs(&bench);
+        let (bench, quirks, distance) = self.bench(conditions);
+        let model = bench.design.model(conditions.exact);
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join("model"), format!("{model}\n"))?;
+        if let Some(xml) = bench.design.xml(conditions.tolerance()) {
+            std::fs::write(folder.join(model), xml)?;
+        }
         for (part, name) in [(Part::Train, "train"), (Part::HeldOut, "holdout")] {
-            let (plant, seen) = bench.run(part, &quirks, &bench.around);
+            let (script, plant, seen) = bench.recorded(part, &quirks);
             let file = std::fs::File::create(folder.join(format!("{name}.cps.jsonl.zst")))?;
-            let script = &bench.scripts[part as usize];
             let seed = bench.seed ^ part as u64;
-            record::write(io::BufWriter::new(file), model, script, &seen, &plant.signals, &bench.around, seed)?;
+            record::write(io::BufWriter::new(file), model, &script, &seen, &plant, &bench.around, seed)?;
         }
         let case = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let magnitude = match self.sort {
@@ -365,10 +406,26 @@ impl Plan {
             sort: self.sort,
             magnitude,
             distance,
+            kind: quirks.first().map(|quirk| bench.design.machine().kind(&quirk.device)),
             effects: quirks,
             class,
             surroundings,
         })
+    }
+
+    /// The machine with what is wrong with it. A machine that can show too little of what was planned is drawn again.
+    fn bench(&self, conditions: Conditions) -> (Bench, Vec<Quirk>, f64) {
+        let wanted: Vec<&str> = self.first.iter().map(|(_, spot)| spot.0).collect();
+        let mut seeds = Dice::new(self.seed, 6);
+        let mut seed = self.seed;
+        loop {
+            let bench = Bench::new(self.site.design(&wanted, seed), seed, conditions);
+            let (quirks, distance) = self.wrongs(&bench);
+            if quirks.len() == self.first.len() {
+                return (bench, quirks, distance);
+            }
+            seed = seeds.seed();
+        }
     }
 
     fn wrongs(&self, bench: &Bench) -> (Vec<Quirk>, f64) {
@@ -393,7 +450,8 @@ impl Plan {
                 let taken: Vec<String> = quirks.iter().map(|quirk| quirk.effect.clone()).collect();
                 (entry, spot) = deck.next(&mut dice, |entry, spot| {
                     let fits = is_single || spot.0 == device && !taken.iter().any(|one| one == entry.effect);
-                    fits && (entry.has_strength() || !graded && is_single)
+                    let is_there = bench.design.machine().has(spot.0) && self.site.fits(entry, spot);
+                    fits && is_there && (entry.has_strength() || !graded && is_single)
                 });
             }
         }

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::arguments::{Arguments, Cases, Command, Exam, Open, Practice};
 use crate::cases::{Answer, Conditions, Plan, Sizes, plans};
+use crate::site::Sites;
 
 /// The seeds of the exams that may be made again. They are unlike, so that nothing learnt on one is known of the other.
 const SHORT_SEED: u64 = 20_260_131;
@@ -64,8 +65,10 @@ fn cases(asked: &Cases) -> Result<String, ExamError> {
         Exam::Training => TRAINING_SEED,
         Exam::Final => sealed_answers::random_seed(),
     });
+    let is_short = asked.exam == Exam::Short && asked.cases.is_none();
+    let sites = if is_short { Sites::Rig } else { Sites::All };
     let conditions = Conditions { classless: asked.no_classes, ..Conditions::default() };
-    let answers = make(&asked.folder, sizes, seed, asked.exam.name(), conditions)?;
+    let answers = make(&asked.folder, plans(sizes, sites, seed), seed, asked.exam.name(), conditions)?;
     let key = asked.key.clone().unwrap_or_else(|| sealed_answers::default_key(&asked.folder));
     sealed_answers::seal(&asked.folder, &key, &answers)?;
     Ok(format!("{} cases in {}, the key of their answers in {}", sizes.sum(), asked.folder.display(), key.display()))
@@ -76,7 +79,8 @@ fn practice(asked: &Practice) -> Result<String, ExamError> {
         return Err(ExamError::AnswersInside { path: asked.answers.clone() });
     }
     let conditions = Conditions { prompt: asked.prompt, exact: asked.exact, classless: asked.no_classes };
-    let answers = make(&asked.out, Sizes::WHOLE.scaled(asked.cases), asked.seed, "practice", conditions)?;
+    let plans = plans(Sizes::WHOLE.scaled(asked.cases), asked.on, asked.seed);
+    let answers = make(&asked.out, plans, asked.seed, "practice", conditions)?;
     write(&asked.answers, &answers)?;
     Ok(format!("{} cases in {}, their answers in {}", asked.cases, asked.out.display(), asked.answers.display()))
 }
@@ -89,11 +93,10 @@ fn open(asked: &Open) -> Result<String, ExamError> {
 }
 
 /// Makes all cases; gives their answers as JSON.
-fn make(folder: &Path, sizes: Sizes, seed: u64, exam: &str, conditions: Conditions) -> Result<Vec<u8>, ExamError> {
+fn make(folder: &Path, plans: Vec<Plan>, seed: u64, exam: &str, conditions: Conditions) -> Result<Vec<u8>, ExamError> {
     if folder.exists() {
         return Err(ExamError::Exists { path: folder.to_owned() });
     }
-    let plans = plans(sizes, seed);
     let digits = plans.len().to_string().len().max(3);
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let make = |(number, plan): (usize, &Plan)| {

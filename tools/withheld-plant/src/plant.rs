@@ -6,7 +6,7 @@ use crate::quirk::Quirk;
 use crate::stream::Stream;
 
 /// The longest step, s. Steps end at every command and every sample besides.
-const STEP: f64 = 1e-4;
+pub const STEP: f64 = 1e-4;
 
 /// One machine.
 pub trait Device: fmt::Debug + Send {
@@ -72,15 +72,27 @@ pub struct Command {
 #[derive(Debug)]
 pub struct Plant {
     pub devices: Vec<(String, Box<dyn Device>)>,
+    /// What it can be told, in the order of the first message.
+    pub commands: Vec<(String, Kind)>,
     pub signals: Vec<Signal>,
     pub quirks: Vec<Quirk>,
     /// How many devices besides these move, each from its instant on; sorted.
     pub company: Vec<(f64, usize)>,
-    /// Which devices moved, a bit for each, from when on: as it has run so far.
+    /// Which of the first 64 devices moved, a bit for each, from when on: as it has run so far.
     pub moved: Vec<(f64, u64)>,
 }
 
 impl Plant {
+    /// One that has not run yet, and has no company.
+    pub fn new(
+        devices: Vec<(String, Box<dyn Device>)>,
+        commands: Vec<(String, Kind)>,
+        signals: Vec<Signal>,
+        quirks: &[Quirk],
+    ) -> Plant {
+        Plant { devices, commands, signals, quirks: quirks.to_vec(), company: Vec::new(), moved: Vec::new() }
+    }
+
     /// Runs under `commands`, sorted by their instants, until `end`; gives what each sensor sees: of edges and of
     /// whatever is `watched` at every step, of everything else at the sorted `samples` only.
     pub fn run(&mut self, commands: &[Command], samples: &[f64], watched: &[bool], end: f64) -> Vec<Stream> {
@@ -112,21 +124,24 @@ impl Plant {
         }
     }
 
-    fn tell(&mut self, now: f64, command: &Command) {
+    /// A command arrives.
+    pub fn tell(&mut self, now: f64, command: &Command) {
         let Some((device, port)) = command.signal.split_once('.') else { return };
         if let Some((_, told)) = self.devices.iter_mut().find(|(name, _)| name == device) {
             told.command(now, port, command.value);
         }
     }
 
-    fn advance(&mut self, now: f64, span: f64) {
-        let bits = self.devices.iter().enumerate().map(|(at, (_, device))| u64::from(device.moves()) << at);
+    /// Everything moves on by `span` until `now`.
+    pub fn advance(&mut self, now: f64, span: f64) {
+        let bits = self.devices.iter().take(64).enumerate().map(|(at, (_, device))| u64::from(device.moves()) << at);
         let moves: u64 = bits.sum();
         if self.moved.last().is_none_or(|(_, last)| *last != moves) {
             self.moved.push((now - span, moves));
         }
         let company = self.company.partition_point(|(from, _)| *from <= now - span + 1e-12).checked_sub(1);
-        let moving = moves.count_ones() as usize + company.map_or(0, |at| self.company[at].1);
+        let own = self.devices.iter().filter(|(_, device)| device.moves()).count();
+        let moving = own + company.map_or(0, |at| self.company[at].1);
         for (_, device) in &mut self.devices {
             let others = moving - usize::from(device.moves());
             device.advance(now, span, others);

@@ -78,6 +78,11 @@ impl Pusher {
         }
     }
 
+    /// How far its plate is out, m.
+    pub fn out(&self) -> f64 {
+        self.train.load()
+    }
+
     /// What it wants to move at, not looking at its ends.
     fn wish(&self, now: f64, others: usize) -> f64 {
         let base = match (self.coils[0].at(now), self.coils[1].at(now)) {

@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 use crate::chance::Dice;
 use crate::plant::{Command, Kind, Plant, Signal};
 use crate::quirk::{Quirk, Quirks};
-use crate::rig::COMMANDS;
 use crate::stream::Stream;
 
 /// How a machine is listened to. Nobody who diagnoses it knows any of this.
@@ -81,7 +80,7 @@ pub fn watch(plant: &mut Plant, script: &[Command], around: &Surroundings, end: 
     let quirks = plant.quirks.clone();
     let due: Vec<f64> = (0..).map(|k| around.phase + f64::from(k) * around.cycle).take_while(|at| *at < end).collect();
     let samples: Vec<f64> = due.iter().map(|at| (at - around.age).max(0.0)).collect();
-    let commands = taken(script, &quirks, around, end, &mut dice);
+    let commands = taken(script, plant, around, end, &mut dice);
     let signals = plant.signals.clone();
     let watched: Vec<bool> = signals.iter().map(|signal| passes(&quirks, signal).next().is_some()).collect();
     let streams = plant.run(&commands, &samples, &watched, end);
@@ -96,20 +95,20 @@ pub fn watch(plant: &mut Plant, script: &[Command], around: &Surroundings, end: 
 }
 
 /// The commands as the devices take them: over their links, when their task runs next.
-pub fn taken(script: &[Command], quirks: &[Quirk], around: &Surroundings, end: f64, dice: &mut Dice) -> Vec<Command> {
-    let mut all = Vec::new();
-    for (name, kind) in COMMANDS {
+pub fn taken(script: &[Command], plant: &Plant, around: &Surroundings, end: f64, dice: &mut Dice) -> Vec<Command> {
+    let (mut all, quirks) = (Vec::new(), &plant.quirks);
+    for (name, kind) in &plant.commands {
         let (device, port) = name.split_once('.').unwrap_or_default();
         let mut stream = Stream::new(true);
         stream.push(0.0, 0.0);
         script
             .iter()
-            .filter(|command| command.signal == name)
+            .filter(|command| command.signal == *name)
             .for_each(|command| stream.push(command.at, command.value));
         let of_device = Quirks::of(quirks, device);
-        let mut name = name.to_owned();
+        let mut name = name.clone();
         for quirk in of_device.at("command-link", port) {
-            stream = stream.through(quirk, kind == Kind::Flag, dice, end);
+            stream = stream.through(quirk, *kind == Kind::Flag, dice, end);
         }
         for quirk in quirks.iter().filter(|q| q.device == device && q.effect == "swapped" && q.place == "command-link")
         {
@@ -124,7 +123,7 @@ pub fn taken(script: &[Command], quirks: &[Quirk], around: &Surroundings, end: f
             };
             name = format!("{device}.{other}");
         }
-        let value = |value: f64| if kind == Kind::Code { value.round() } else { value };
+        let value = |value: f64| if *kind == Kind::Code { value.round() } else { value };
         let on_task = |at: f64| match around.task {
             task if task > 0.0 && at > 0.0 => ((at - around.task_phase) / task).ceil() * task + around.task_phase,
             _ => at,
@@ -187,18 +186,18 @@ fn swap(streams: &mut [Stream], signals: &[Signal], quirks: &[Quirk]) {
     }
 }
 
-/// Writes what was seen of `signals` under `script` as a trace of the plant called `model`.
+/// Writes what was seen of `plant` under `script` as a trace of the plant called `model`.
 pub fn write<W: Write>(
     out: W,
     model: &str,
     script: &[Command],
     seen: &Seen,
-    signals: &[Signal],
+    plant: &Plant,
     around: &Surroundings,
     seed: u64,
 ) -> io::Result<W> {
-    let mut said = commands(script);
-    said.extend(reports(seen, signals, around, seed));
+    let mut said = commands(script, &plant.commands);
+    said.extend(reports(seen, &plant.signals, around, seed));
     // Stable: the automation's first.
     said.sort_by(|a, b| a.at.total_cmp(&b.at));
     let header = Header { source: Source::Plant, model: Some(model.to_owned()), ..Header::default() };
@@ -210,16 +209,16 @@ pub fn write<W: Write>(
 }
 
 /// The automation's messages: the first sets everything to 0.
-fn commands(script: &[Command]) -> Vec<Said> {
-    let mut text = SendValueText::with_capacity(COMMANDS.len());
-    for (name, kind) in COMMANDS {
-        let _ = text.push(name, &value(kind, 0.0));
+fn commands(script: &[Command], known: &[(String, Kind)]) -> Vec<Said> {
+    let mut text = SendValueText::with_capacity(known.len());
+    for (name, kind) in known {
+        let _ = text.push(name, &value(*kind, 0.0));
     }
     let mut said = vec![Said { at: 0.0, from: Sender::Automation, text: text.finish().unwrap_or_default() }];
     for together in script.chunk_by(|one, next| one.at == next.at) {
         let mut text = SendValueText::with_capacity(together.len());
         for command in together {
-            let kind = COMMANDS.iter().find(|(name, _)| *name == command.signal).map_or(Kind::Level, |(_, kind)| *kind);
+            let kind = known.iter().find(|(name, _)| *name == command.signal).map_or(Kind::Level, |(_, kind)| *kind);
             let _ = text.push(&command.signal, &value(kind, command.value));
         }
         let text = text.finish().unwrap_or_default();
@@ -268,11 +267,11 @@ fn value(kind: Kind, number: f64) -> Value {
     }
 }
 
-/// The script as the plant hears it: every message through the wire and back, so that no number is finer than what
-/// travels.
-pub fn heard(script: &[Command]) -> Vec<Command> {
+/// The script as a plant that takes the commands `known` hears it: every message through the wire and back, so that no number
+/// is finer than what travels.
+pub fn heard(script: &[Command], known: &[(String, Kind)]) -> Vec<Command> {
     let mut heard = Vec::new();
-    for said in commands(script).into_iter().skip(1) {
+    for said in commands(script, known).into_iter().skip(1) {
         let Ok(Message::SendValue(entries)) = Message::decode(&said.text) else { continue };
         for entry in entries {
             let (Some(name), Some(raw)) = (entry.name, entry.value) else { continue };

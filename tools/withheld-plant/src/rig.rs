@@ -5,6 +5,7 @@ use crate::chance::Dice;
 use crate::gripper::{Gripper, GripperParameters};
 use crate::motor::{Motor, MotorParameters};
 use crate::plant::{Device, Kind, Plant, Signal};
+use crate::ports;
 use crate::pusher::{Pusher, PusherParameters};
 use crate::quirk::Quirk;
 use crate::robot::{Robot, RobotParameters};
@@ -123,47 +124,28 @@ impl RigParameters {
             ("Motor", Box::new(Motor::new(motor, quirks, "Motor"))),
         ];
         let devices = devices.into_iter().map(|(name, device)| (name.to_owned(), device)).collect();
-        Plant { devices, signals: signals(), quirks: quirks.to_vec(), company: Vec::new(), moved: Vec::new() }
+        Plant::new(devices, commands(), signals(), quirks)
     }
 }
 
 /// All commands, in the order of the first message.
-pub const COMMANDS: [(&str, Kind); 13] = [
-    ("Belt.velocityTarget", Kind::Level),
-    ("Belt.motorDirection", Kind::Code),
-    ("Pusher.command", Kind::Code),
-    ("Robot.XTarget", Kind::Level),
-    ("Robot.YTarget", Kind::Level),
-    ("Robot.ZTarget", Kind::Level),
-    ("Robot.RTarget", Kind::Level),
-    ("Robot.grip", Kind::Flag),
-    ("Gripper.suctionOn", Kind::Flag),
-    ("Gripper.blowOn", Kind::Flag),
-    ("Axis.positionTarget", Kind::Level),
-    ("Motor.speedTarget", Kind::Level),
-    ("Motor.enable", Kind::Flag),
-];
+pub fn commands() -> Vec<(String, Kind)> {
+    let each = [
+        ("Belt", ports::BELT),
+        ("Pusher", ports::PUSHER),
+        ("Robot", ports::ROBOT),
+        ("Gripper", ports::GRIPPER),
+        ("Axis", ports::SERVO),
+        ("Motor", ports::MOTOR),
+    ];
+    each.into_iter().flat_map(|(name, ports)| ports::commands(name, ports)).collect()
+}
 
 /// All reports, in the order in which the devices read them.
 pub fn signals() -> Vec<Signal> {
-    let signal = |name: &str, kind, quantum, sigma| Signal { name: name.to_owned(), kind, quantum, sigma };
-    let flag = |name: &str| signal(name, Kind::Flag, 0.0, 0.0);
-    let level = |name: &str, quantum, sigma| signal(name, Kind::Level, quantum, sigma);
-    let mut all = vec![
-        level("Belt.velocityActual", 1e-3, 1e-3),
-        flag("Belt.driveEnabled"),
-        flag("Belt.driveRunning"),
-        signal("Belt.directionalActual", Kind::Code, 0.0, 0.0),
-    ];
-    all.extend(["Belt.lightBarrierA", "Belt.lightBarrierB"].map(flag));
-    all.extend(["limitExtended", "limitRetracted", "isRunning"].map(|port| flag(&format!("Pusher.{port}"))));
-    all.extend(["Pusher.lightbarrierA", "Pusher.lightbarrierB", "Robot.cartesianArrived"].map(flag));
-    all.extend(["X", "Y", "Z"].map(|axis| level(&format!("Robot.actualPos{axis}"), 5e-5, 2.5e-5)));
-    all.extend([level("Robot.actualPosR", 5e-5, 3.5e-5), flag("Gripper.vacuumOn")]);
-    all.extend([level("Axis.position", 1e-5, 1.5e-5), level("Axis.velocity", 1e-3, 1.5e-3)]);
-    all.extend([level("Axis.force", 0.5, 1.5), signal("Motor.encoder", Kind::Count, 1.0, 0.0)]);
-    all.extend([level("Motor.speedActual", 1e-2, 3e-2), flag("Motor.inverterReady")]);
-    all
+    let (belt, pusher, robot) = (ports::belt("Belt"), ports::pusher("Pusher"), ports::robot("Robot"));
+    let (gripper, servo, motor) = (ports::gripper("Gripper"), ports::servo("Axis", 0.5), ports::motor("Motor"));
+    [belt, pusher, robot, gripper, servo, motor].concat()
 }
 
 #[cfg(test)]

@@ -70,7 +70,7 @@ impl Alone<'_> {
             .take_while(|at| *at < end)
             .map(|at| (at - around.age).max(0.0))
             .collect();
-        let mut commands = record::taken(&self.script, quirks, &around, end, &mut dice);
+        let mut commands = record::taken(&self.script, &plant, &around, end, &mut dice);
         commands.retain(|command| command.signal.split_once('.').is_some_and(|(device, _)| device == self.device));
         let signals = plant.signals.clone();
         let watched: Vec<bool> = signals.iter().map(|signal| record::passes(quirks, signal).next().is_some()).collect();

@@ -118,7 +118,8 @@ fn spots(entry: &Entry, truth: &Quirk, device: &str, axis: Option<&str>, signals
     if OF_LINKS.contains(&entry.effect) {
         places.push(also("", 1.0));
         let reports = signals.iter().map(|signal| signal.parts().1);
-        let commands = crate::rig::COMMANDS.iter().filter_map(|(name, _)| name.split_once('.'));
+        let commands = crate::rig::commands();
+        let commands = commands.iter().filter_map(|(name, _)| name.split_once('.'));
         let commands = commands.filter(|(of, _)| *of == device).map(|(_, port)| port);
         match entry.place {
             "report-link" => places.extend(reports.map(|port| also(port, 1.0))),
