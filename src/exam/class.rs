@@ -81,7 +81,14 @@ mod tests {
             parameters: Vec::new(),
         };
         let class = class.iter().map(member).collect();
-        Answer { case: "1".to_owned(), sort: Sort::Single, magnitude: Magnitude::Clear, effects: vec![truth], class }
+        Answer {
+            case: "1".to_owned(),
+            sort: Sort::Single,
+            magnitude: Magnitude::Clear,
+            effects: vec![truth],
+            class,
+            kind: None,
+        }
     }
 
     /// One cause, its class in this order.
