@@ -195,6 +195,24 @@ impl Deck {
     }
 }
 
+/// What a recording is made of: a machine that has not run yet, and what it is told.
+pub struct Take {
+    pub part: Part,
+    pub built: RigParameters,
+    pub quirks: Vec<Quirk>,
+    pub script: Vec<Command>,
+    pub around: Surroundings,
+    pub seed: u64,
+    pub model: &'static str,
+}
+
+impl Take {
+    /// The machine.
+    pub fn plant(&self) -> Plant {
+        self.built.plant(&self.quirks, self.seed)
+    }
+}
+
 /// A case that can be written.
 struct Bench {
     built: RigParameters,
@@ -222,6 +240,18 @@ impl Bench {
         let script = &self.scripts[part as usize];
         let seen = record::watch(&mut plant, script, around, part.seconds(), self.seed ^ part as u64);
         (plant, seen)
+    }
+
+    fn take(&self, part: Part, quirks: &[Quirk], model: &'static str) -> Take {
+        Take {
+            part,
+            built: self.built.clone(),
+            quirks: quirks.to_vec(),
+            script: self.scripts[part as usize].clone(),
+            around: self.around.clone(),
+            seed: self.seed ^ part as u64,
+            model,
+        }
     }
 
     /// How far these effects carry the training recording from what it would be.
@@ -308,14 +338,19 @@ impl Bench {
 impl Plan {
     /// Makes the case in `folder`, which it creates, and gives the truth about it.
     pub fn make(&self, folder: &Path, conditions: Conditions) -> io::Result<Answer> {
+        self.make_and_keep(folder, conditions).map(|(answer, _)| answer)
+    }
+
+    /// As [`make`](Self::make); gives what both recordings were made of besides.
+    pub fn make_and_keep(&self, folder: &Path, conditions: Conditions) -> io::Result<(Answer, [Take; 2])> {
         let bench = Bench::new(self.seed, conditions);
         let model = conditions.model();
         let (quirks, distance) = self.wrongs(&bench);
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join("model"), format!("{model}\n"))?;
-        for (part, name) in [(Part::Train, "train"), (Part::HeldOut, "holdout")] {
+        for part in [Part::Train, Part::HeldOut] {
             let (plant, seen) = bench.run(part, &quirks, &bench.around);
-            let file = std::fs::File::create(folder.join(format!("{name}.cps.jsonl.zst")))?;
+            let file = std::fs::File::create(folder.join(part.file()))?;
             let script = &bench.scripts[part as usize];
             let seed = bench.seed ^ part as u64;
             record::write(io::BufWriter::new(file), model, script, &seen, &plant.signals, &bench.around, seed)?;
@@ -326,8 +361,9 @@ impl Plan {
             // What is stronger than its tolerance may show more than was meant.
             _ => Magnitude::of(distance).unwrap_or(self.magnitude),
         };
+        let takes = [Part::Train, Part::HeldOut].map(|part| bench.take(part, &quirks, model));
         let surroundings = bench.around;
-        Ok(Answer {
+        let answer = Answer {
             case,
             model: model.to_owned(),
             sort: self.sort,
@@ -335,7 +371,8 @@ impl Plan {
             distance,
             effects: quirks,
             surroundings,
-        })
+        };
+        Ok((answer, takes))
     }
 
     fn wrongs(&self, bench: &Bench) -> (Vec<Quirk>, f64) {

@@ -25,6 +25,7 @@ mod robot;
 mod script;
 mod sensor;
 mod servo;
+mod socket;
 mod stream;
 mod switch;
 mod train;

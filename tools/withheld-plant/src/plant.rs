@@ -6,7 +6,7 @@ use crate::quirk::Quirk;
 use crate::stream::Stream;
 
 /// The longest step, s. Steps end at every command and every sample besides.
-const STEP: f64 = 1e-4;
+pub const STEP: f64 = 1e-4;
 
 /// One machine.
 pub trait Device: fmt::Debug + Send {
@@ -87,10 +87,7 @@ impl Plant {
             while let Some(command) = commands.next_if(|command| command.at <= now) {
                 self.tell(now, command);
             }
-            values.clear();
-            for (_, device) in &self.devices {
-                device.read(now, &mut values);
-            }
+            self.read(now, &mut values);
             let is_sample = samples.next_if(|sample| **sample <= now).is_some();
             for (at, stream) in streams.iter_mut().enumerate() {
                 if is_sample || watched[at] || self.signals[at].kind.is_edge() {
@@ -108,14 +105,24 @@ impl Plant {
         }
     }
 
-    fn tell(&mut self, now: f64, command: &Command) {
+    /// What all sensors see, in the order of the signals.
+    pub fn read(&self, now: f64, values: &mut Vec<f64>) {
+        values.clear();
+        for (_, device) in &self.devices {
+            device.read(now, values);
+        }
+    }
+
+    /// Hands a command to its device; what no device knows goes nowhere.
+    pub fn tell(&mut self, now: f64, command: &Command) {
         let Some((device, port)) = command.signal.split_once('.') else { return };
         if let Some((_, told)) = self.devices.iter_mut().find(|(name, _)| name == device) {
             told.command(now, port, command.value);
         }
     }
 
-    fn advance(&mut self, now: f64, span: f64) {
+    /// Moves on by `span`, at most [`STEP`], until `now`.
+    pub fn advance(&mut self, now: f64, span: f64) {
         let moving = self.devices.iter().filter(|(_, device)| device.moves()).count();
         for (_, device) in &mut self.devices {
             let others = moving - usize::from(device.moves());
