@@ -15,6 +15,7 @@ pub mod pairs;
 mod running;
 #[cfg(test)]
 mod tests;
+mod urgency;
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::thread;
@@ -36,8 +37,15 @@ pub fn record(take: &Take, seconds: f64) -> Result<(Vec<Said>, Lateness), Socket
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).map_err(open)?;
     let address: SocketAddr = listener.local_addr().map_err(open)?;
     let (automation, plant) = thread::scope(|scope| {
-        let plant = scope.spawn(|| client::run(address, plant, around, seconds, *seed));
-        let automation = automation::run(&listener, script, seconds);
+        let plant = scope.spawn(|| {
+            urgency::ask();
+            client::run(address, plant, around, seconds, *seed)
+        });
+        let automation = scope.spawn(|| {
+            urgency::ask();
+            automation::run(&listener, script, seconds)
+        });
+        let automation = automation.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         (automation, plant.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     });
     match (automation, plant) {

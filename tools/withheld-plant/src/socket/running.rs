@@ -56,6 +56,11 @@ impl Running {
         running
     }
 
+    /// Where in time it is, s.
+    pub fn now(&self) -> f64 {
+        self.now
+    }
+
     /// Moves on to `until`, or stays where that has passed.
     pub fn run_until(&mut self, until: f64) {
         while self.now < until {
