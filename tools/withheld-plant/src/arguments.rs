@@ -115,7 +115,7 @@ pub struct Open {
     pub output: PathBuf,
 }
 
-/// Cases of one machine each, recorded in simulated time in DIR/simulated and over a socket in DIR/socket. Takes a minute and a half.
+/// Cases of one machine each, recorded in simulated time in DIR/simulated and over a socket in DIR/socket.
 #[derive(Debug, Args)]
 pub struct Pairs {
     /// The folder for both, which must not exist yet

@@ -28,9 +28,9 @@ pub enum SocketError {
     Silent { peer: &'static str, seconds: f64 },
     /// The machine was not there in time: what is recorded would not be what happened.
     #[error(
-        "the recording did not keep time: {:.1} ms late, and at most {:.1} ms are allowed: this machine is too busy; record \
-         fewer at a time (--jobs), when it has less to do, or with leave for real-time priorities (CAP_SYS_NICE, or \
-         `ulimit -r` 10)",
+        "the recording did not keep time: one of a thousand events was {:.1} ms late, and at most {:.1} ms are allowed: \
+         this machine is too busy; record fewer at a time (--jobs), when it has less to do, or with leave for real-time \
+         priorities (CAP_SYS_NICE, or `ulimit -r` 10)",
         1e3 * late, 1e3 * allowed
     )]
     Late { late: f64, allowed: f64 },

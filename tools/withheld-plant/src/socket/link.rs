@@ -1,7 +1,7 @@
 //! What happens to a signal on its way, while it happens.
 //!
-//! [`Stream`](crate::stream::Stream) is told a whole recording and answers afterwards; a link is told one point after the other and answers
-//! at once. Both have the same laws; a test compares them, effect by effect.
+//! [`Stream`](crate::stream::Stream) is told a whole recording and answers afterwards; a link is told one point after the
+//! other and answers at once. Both have the same laws; a test compares them, effect by effect.
 
 use std::collections::VecDeque;
 
@@ -85,8 +85,8 @@ enum Law {
 }
 
 impl Link {
-    /// The link that does what `quirk` says to a signal that jumps (`is_edge`), perhaps between two values only (`is_flag`). `None`
-    /// where it does nothing to it.
+    /// The link that does what `quirk` says to a signal that jumps (`is_edge`), perhaps between two values only
+    /// (`is_flag`). `None` where it does nothing to it.
     pub fn of(quirk: &Quirk, is_flag: bool, is_edge: bool, seed: u64) -> Option<Link> {
         let value = |name: &str| quirk.value(name);
         let late = |time, stretch| Law::Late { time, stretch, past: Past::new(is_edge) };

@@ -141,8 +141,8 @@ fn deliver(folder: &Path, asked: &Pairs, cases: Vec<Answer>) -> Result<String, E
     Ok("the keys of their answers are beside both folders".to_owned())
 }
 
-/// Does `work` with each of `all` on so many threads. Gives what came of them in any order, or the first error, after which no
-/// more is begun.
+/// Does `work` with each of `all` on so many threads. Gives what came of them in any order, or an error, after which no more
+/// is begun.
 fn each<T: Send, R: Send>(
     all: Vec<T>,
     threads: usize,

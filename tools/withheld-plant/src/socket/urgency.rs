@@ -1,15 +1,15 @@
 //! Going before what shares the processors by turns, where the system permits it.
 //!
-//! On Unix that is the policy "first in, first out" (POSIX.1-2017, `SCHED_FIFO`), on Windows the priority "time critical". An end sleeps
-//! between what it does, so that nobody waits long for it.
+//! On Unix that is the policy "first in, first out" (POSIX.1-2017, `SCHED_FIFO`), on Windows the priority "time critical".
+//! An end sleeps between what it does, so that nobody waits long for it.
 
 use thread_priority::{ThreadPriority, ThreadPriorityValue};
 
 /// Among 1 to 99; the system's own threads for interrupts have 50.
 const PRIORITY: u8 = 10;
 
-/// Has the calling thread go before all that is not real-time. Where that is refused it stays as it is, and how late it is tells
-/// whether that was enough.
+/// Has the calling thread go before all that is not real-time. Where that is refused it stays as it is, and how late it is
+/// tells whether that was enough.
 pub fn ask() {
     if let Ok(value) = ThreadPriorityValue::try_from(PRIORITY) {
         let _ = set(ThreadPriority::Crossplatform(value));
