@@ -19,7 +19,7 @@ pub fn run(listener: &TcpListener, script: &[Command], seconds: f64) -> Result<(
     let mut end = End::accept(listener, PLANT)?;
     welcome(&mut end)?;
     let mut lateness = Lateness::default();
-    let mut heard = Vec::new();
+    let mut heard: Vec<Said> = Vec::new();
     let mut script = record::commands(script).into_iter().peekable();
     end.start();
     loop {
@@ -29,6 +29,8 @@ pub fn run(listener: &TcpListener, script: &[Command], seconds: f64) -> Result<(
                 Ok(Message::SendValue(_)) => heard.push(Said { at, from: Sender::Plant, text }),
                 Ok(Message::Connect(connect)) if !connect.enable && script.peek().is_none() && at >= seconds => {
                     end.send(reply(&connect))?;
+                    // What arrived while it spoke is read later.
+                    heard.sort_by(|one, next| one.at.total_cmp(&next.at));
                     return Ok((heard, lateness));
                 }
                 Ok(other) => return Err(end.bad(&text, &format!("a {} now", other.name()))),

@@ -73,7 +73,7 @@ impl Client {
     /// Its time begins with the automation's first message.
     fn begin(&mut self) -> Result<(), SocketError> {
         let (_, text) = self.end.expect()?;
-        self.end.start();
+        self.end.start_with_last();
         self.hear(0.0, &text)
     }
 

@@ -12,9 +12,19 @@ impl Clock {
         Clock(Instant::now())
     }
 
+    /// The clock that was started at `start`.
+    pub fn started(start: Instant) -> Clock {
+        Clock(start)
+    }
+
     /// s
     pub fn now(self) -> f64 {
-        self.0.elapsed().as_secs_f64()
+        self.at(Instant::now())
+    }
+
+    /// What it said at `instant`, s; 0 before its start.
+    pub fn at(self, instant: Instant) -> f64 {
+        instant.saturating_duration_since(self.0).as_secs_f64()
     }
 
     /// How long it is until `at`, s; `None` where that has come.

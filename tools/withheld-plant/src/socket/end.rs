@@ -2,7 +2,7 @@
 
 use std::io;
 use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use tungstenite::handshake::HandshakeError;
@@ -10,13 +10,16 @@ use tungstenite::{Error, Message, WebSocket};
 
 use super::clock::Clock;
 use super::error::SocketError;
+use super::stamped::Stamped;
 
 /// How long the other end may take to answer, s.
 pub const PATIENCE: f64 = 5.0;
 
 /// One end.
 pub struct End {
-    socket: WebSocket<TcpStream>,
+    socket: WebSocket<Stamped>,
+    /// A message that was read before its instant came.
+    early: Option<(Instant, String)>,
     /// Whom it talks to: `plant`
     peer: &'static str,
     clock: Clock,
@@ -38,7 +41,7 @@ impl End {
             ready(&mut [PollFd::new(listener, PollFlags::IN)], left).map_err(open)?;
         };
         stream.set_nonblocking(false).and_then(|()| prepare(&stream)).map_err(open)?;
-        let socket = tungstenite::accept(stream).map_err(|error| refused(peer, error))?;
+        let socket = tungstenite::accept(Stamped::new(stream).map_err(open)?).map_err(|error| refused(peer, error))?;
         End::new(socket, peer)
     }
 
@@ -48,19 +51,24 @@ impl End {
         let patience = Duration::from_secs_f64(PATIENCE);
         let stream = TcpStream::connect_timeout(&address, patience).map_err(open)?;
         prepare(&stream).map_err(open)?;
-        let (socket, _) =
-            tungstenite::client(format!("ws://{address}/"), stream).map_err(|error| refused(peer, error))?;
+        let (socket, _) = tungstenite::client(format!("ws://{address}/"), Stamped::new(stream).map_err(open)?)
+            .map_err(|error| refused(peer, error))?;
         End::new(socket, peer)
     }
 
-    fn new(socket: WebSocket<TcpStream>, peer: &'static str) -> Result<End, SocketError> {
-        socket.get_ref().set_nonblocking(true).map_err(|source| SocketError::Open { peer, source })?;
-        Ok(End { socket, peer, clock: Clock::start() })
+    fn new(socket: WebSocket<Stamped>, peer: &'static str) -> Result<End, SocketError> {
+        socket.get_ref().stream().set_nonblocking(true).map_err(|source| SocketError::Open { peer, source })?;
+        Ok(End { socket, early: None, peer, clock: Clock::start() })
     }
 
-    /// Lets its clock begin again.
+    /// Lets its clock begin again, now.
     pub fn start(&mut self) {
         self.clock = Clock::start();
+    }
+
+    /// Lets its clock begin when the last message was there.
+    pub fn start_with_last(&mut self) {
+        self.clock = Clock::started(self.socket.get_ref().arrived());
     }
 
     /// What its clock says, s.
@@ -68,12 +76,22 @@ impl End {
         self.clock.now()
     }
 
-    /// The next message and the instant at which it was there; `None` when `until` comes first.
+    /// The next message and the instant at which it was there; `None` when `until` has come and nothing was there before it.
     pub fn next(&mut self, until: f64) -> Result<Option<(f64, String)>, SocketError> {
         loop {
-            let Some(left) = self.clock.until(until) else { return Ok(None) };
+            if let Some((arrived, text)) = self.early.take() {
+                let at = self.clock.at(arrived);
+                if at <= until {
+                    return Ok(Some((at, text)));
+                }
+                self.early = Some((arrived, text));
+                return Ok(None);
+            }
+            let left = self.clock.until(until);
             match self.socket.read() {
-                Ok(Message::Text(text)) => return Ok(Some((self.now().min(until), text.as_str().to_owned()))),
+                Ok(Message::Text(text)) => {
+                    self.early = Some((self.socket.get_ref().arrived(), text.as_str().to_owned()));
+                }
                 Ok(Message::Ping(_) | Message::Pong(_) | Message::Frame(_)) => {}
                 Ok(Message::Binary(bytes)) => {
                     let what = format!("a binary message of {} bytes", bytes.len());
@@ -81,7 +99,8 @@ impl End {
                 }
                 Ok(Message::Close(_)) => return Err(self.lost(Error::ConnectionClosed)),
                 Err(Error::Io(error)) if error.kind() == io::ErrorKind::WouldBlock => {
-                    let fd = PollFd::new(self.socket.get_ref(), PollFlags::IN);
+                    let Some(left) = left else { return Ok(None) };
+                    let fd = PollFd::new(self.socket.get_ref().stream(), PollFlags::IN);
                     ready(&mut [fd], left).map_err(|error| self.lost(Error::Io(error)))?;
                 }
                 Err(error) => return Err(self.lost(error)),
@@ -102,7 +121,7 @@ impl End {
         // What the socket does not take at once waits within the WebSocket.
         while matches!(&sent, Err(Error::Io(error)) if error.kind() == io::ErrorKind::WouldBlock) {
             let left = self.clock.until(until).ok_or(SocketError::Silent { peer: self.peer, seconds: PATIENCE })?;
-            let fd = PollFd::new(self.socket.get_ref(), PollFlags::OUT);
+            let fd = PollFd::new(self.socket.get_ref().stream(), PollFlags::OUT);
             ready(&mut [fd], left).map_err(|error| self.lost(Error::Io(error)))?;
             sent = self.socket.flush();
         }

@@ -13,6 +13,7 @@ mod error;
 mod link;
 pub mod pairs;
 mod running;
+mod stamped;
 #[cfg(test)]
 mod tests;
 mod urgency;
