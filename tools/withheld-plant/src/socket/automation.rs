@@ -44,6 +44,7 @@ pub fn run(listener: &TcpListener, script: &[Command], seconds: f64) -> Result<(
                 let at = end.now();
                 end.send(text.clone())?;
                 lateness.note(at - due);
+                lateness.note_unsure(end.now() - at);
                 heard.push(Said { at, from, text });
             }
         }

@@ -36,28 +36,43 @@ impl Clock {
 
 /// By how much events came later than they were due, each in s.
 #[derive(Clone, Debug, Default)]
-pub struct Lateness(Vec<f64>);
+pub struct Lateness {
+    all: Vec<f64>,
+    /// The longest that a command took from its stamp until the system had it.
+    unsure: f64,
+}
 
 impl Lateness {
     /// One more event.
     pub fn note(&mut self, late: f64) {
-        self.0.push(late);
+        self.all.push(late);
+    }
+
+    /// A command left so long after its stamp.
+    pub fn note_unsure(&mut self, unsure: f64) {
+        self.unsure = self.unsure.max(unsure);
+    }
+
+    /// By how much the stamp of a command may be wrong.
+    pub fn unsure(&self) -> f64 {
+        self.unsure
     }
 
     /// Those of both.
     pub fn and(mut self, other: Lateness) -> Lateness {
-        self.0.extend(other.0);
+        self.all.extend(other.all);
+        self.unsure = self.unsure.max(other.unsure);
         self
     }
 
     /// The latest.
     pub fn most(&self) -> f64 {
-        self.0.iter().copied().fold(0.0, f64::max)
+        self.all.iter().copied().fold(0.0, f64::max)
     }
 
     /// What this share of all events did not exceed; 0 where there were none.
     pub fn quantile(&self, share: f64) -> f64 {
-        let mut sorted = self.0.clone();
+        let mut sorted = self.all.clone();
         sorted.sort_by(f64::total_cmp);
         let at = (share * sorted.len() as f64) as usize;
         sorted.get(at.min(sorted.len().saturating_sub(1))).copied().unwrap_or(0.0)
@@ -72,7 +87,9 @@ mod tests {
     fn lateness_is_told_by_its_share_and_its_most() {
         let mut all = Lateness::default();
         (0..100).for_each(|k| all.note(f64::from(99 - k)));
-        let all = all.and(Lateness(vec![200.0]));
+        let mut other = Lateness::default();
+        other.note(200.0);
+        let all = all.and(other);
         assert_eq!([all.quantile(0.5), all.quantile(0.99), all.most()], [50.0, 99.0, 200.0]);
         assert_eq!(Lateness::default().quantile(0.5), 0.0);
     }

@@ -34,9 +34,13 @@ pub enum SocketError {
         1e3 * late, 1e3 * allowed
     )]
     Late { late: f64, allowed: f64 },
-    /// The recording could not be written.
-    #[error("failed to write a recording")]
-    Write(#[from] io::Error),
+    /// A command did not leave when its stamp says.
+    #[error(
+        "the recording did not keep time: a command left {:.1} ms after its stamp, and at most {:.1} ms are allowed: this \
+         machine is too busy; record when it has less to do",
+        1e3 * late, 1e3 * allowed
+    )]
+    Unsure { late: f64, allowed: f64 },
 }
 
 impl SocketError {

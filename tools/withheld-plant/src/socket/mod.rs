@@ -30,6 +30,10 @@ use crate::record::Said;
 /// Which share of a reporting cycle a recording may be late: as much as the most that a report's stamp is.
 const ALLOWED: f64 = 0.4;
 
+/// How long after its stamp a command may leave, s: a motor that is told to turn round 0.5 ms later than was recorded has made
+/// another 15 counts of its encoder, and keeps them.
+const UNSURE: f64 = 5e-4;
+
 /// Of how many events that is asked. What a system with other things to do is now and then late is part of a recording.
 const ASKED: f64 = 0.999;
 
@@ -62,6 +66,9 @@ pub fn record(take: &Take, seconds: f64) -> Result<(Vec<Said>, Lateness), Socket
 
 /// Refuses what was not in real time.
 pub fn in_time(lateness: &Lateness, cycle: f64) -> Result<(), SocketError> {
+    if lateness.unsure() > UNSURE {
+        return Err(SocketError::Unsure { late: lateness.unsure(), allowed: UNSURE });
+    }
     let (late, allowed) = (lateness.quantile(ASKED), ALLOWED * cycle);
     if late > allowed { Err(SocketError::Late { late, allowed }) } else { Ok(()) }
 }

@@ -91,6 +91,10 @@ fn what_did_not_keep_time_is_refused() {
     (0..2000).for_each(|_| lateness.note(0.003));
     lateness.note(0.5);
     assert!(in_time(&lateness, 0.01).is_ok(), "one of two thousand");
+    let mut unsure = lateness.clone();
+    unsure.note_unsure(0.0006);
+    let error = in_time(&unsure, 0.01).expect_err("a stamp that is wrong").to_string();
+    assert!(error.contains("0.6 ms after its stamp"), "{error}");
     (0..2).for_each(|_| lateness.note(0.0041));
     let error = in_time(&lateness, 0.01).expect_err("too late").to_string();
     assert!(error.contains("4.1 ms late, and at most 4.0 ms"), "{error}");
