@@ -21,10 +21,11 @@ Examples:
   withheld-plant cases short --exam short
   withheld-plant open short --reports short-reports -o answers.json
   withheld-plant --seed 7 --cases 24 --out practice --answers practice.json
+  withheld-plant socket pairs --seed 7
 
 Exit codes:
   0  done
-  2  bad input or use; answers that may not be opened yet";
+  2  bad input or use; answers that may not be opened yet; a recording that was not made";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -32,6 +33,8 @@ pub enum Command {
     Cases(Cases),
     /// Opens an exam's answers, when every case has been answered
     Open(Open),
+    /// Writes each case twice: recorded in simulated time, and over a real socket in real time
+    Socket(Pairs),
 }
 
 /// Cases with their answers in the open, to practise on.
@@ -121,4 +124,24 @@ pub struct Open {
     /// The file for the answers
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+}
+
+/// Cases of one machine each, recorded in simulated time in DIR/simulated and over a socket in DIR/socket.
+#[derive(Debug, Args)]
+pub struct Pairs {
+    /// The folder for both, which must not exist yet
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+    /// What the cases are a function of
+    #[arg(long, value_name = "N")]
+    pub seed: u64,
+    /// How many, in the shares of the whole exam
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    pub cases: usize,
+    /// How many recordings run side by side [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// The file for the answers, in the open and outside of that folder [default: sealed, in both]
+    #[arg(long, value_name = "FILE")]
+    pub answers: Option<PathBuf>,
 }

@@ -16,6 +16,7 @@ use crate::magnitude::{Hidden, Magnitude, distance};
 use crate::plant::{Command, Plant, Signal};
 use crate::quirk::{Member, Quirk};
 use crate::record::{self, Seen, Surroundings};
+use crate::rig::RigParameters;
 use crate::script::Part;
 use crate::site::{Design, Site, Sites};
 
@@ -208,6 +209,24 @@ impl Deck {
     }
 }
 
+/// What a recording is made of: a machine that has not run yet, and what it is told.
+pub struct Take {
+    pub part: Part,
+    pub built: RigParameters,
+    pub quirks: Vec<Quirk>,
+    pub script: Vec<Command>,
+    pub around: Surroundings,
+    pub seed: u64,
+    pub model: &'static str,
+}
+
+impl Take {
+    /// The machine.
+    pub fn plant(&self) -> Plant {
+        self.built.plant(&self.quirks, self.seed)
+    }
+}
+
 /// A case that can be written.
 struct Bench {
     design: Design,
@@ -265,6 +284,19 @@ impl Bench {
             seen.values.iter_mut().zip(&healthy.values).for_each(|(one, other)| one[at] = other[at]);
         }
         seen
+    }
+
+    /// What a recording is made of; of another plant than the rig there is none, as its automation is no list of commands.
+    fn take(&self, part: Part, quirks: &[Quirk], model: &'static str) -> Option<Take> {
+        Some(Take {
+            part,
+            built: self.built.rig()?.clone(),
+            quirks: quirks.to_vec(),
+            script: self.scripts[part as usize].clone(),
+            around: self.around.clone(),
+            seed: self.seed ^ part as u64,
+            model,
+        })
     }
 
     /// How far these effects carry the training recording from what it would be.
@@ -375,6 +407,11 @@ impl Bench {
 impl Plan {
     /// Makes the case in `folder`, which it creates, and gives the truth about it.
     pub fn make(&self, folder: &Path, conditions: Conditions) -> io::Result<Answer> {
+        self.make_and_keep(folder, conditions).map(|(answer, _)| answer)
+    }
+
+    /// As [`make`](Self::make); gives what both recordings were made of besides, where the plant is the rig.
+    pub fn make_and_keep(&self, folder: &Path, conditions: Conditions) -> io::Result<(Answer, Vec<Take>)> {
         let (bench, quirks, distance) = self.bench(conditions);
         let model = bench.design.model(conditions.exact);
         std::fs::create_dir_all(folder)?;
@@ -382,9 +419,9 @@ impl Plan {
         if let Some(xml) = bench.design.xml(conditions.tolerance()) {
             std::fs::write(folder.join(model), xml)?;
         }
-        for (part, name) in [(Part::Train, "train"), (Part::HeldOut, "holdout")] {
+        for part in [Part::Train, Part::HeldOut] {
             let (script, plant, seen) = bench.recorded(part, &quirks);
-            let file = std::fs::File::create(folder.join(format!("{name}.cps.jsonl.zst")))?;
+            let file = std::fs::File::create(folder.join(part.file()))?;
             let seed = bench.seed ^ part as u64;
             record::write(io::BufWriter::new(file), model, &script, &seen, &plant, &bench.around, seed)?;
         }
@@ -399,8 +436,10 @@ impl Plan {
             [quirk] if self.sort == Sort::Single && shows && !conditions.classless => bench.class(quirk),
             _ => Vec::new(),
         };
+        let takes =
+            [Part::Train, Part::HeldOut].into_iter().filter_map(|part| bench.take(part, &quirks, model)).collect();
         let surroundings = bench.around;
-        Ok(Answer {
+        let answer = Answer {
             case,
             model: model.to_owned(),
             sort: self.sort,
@@ -410,7 +449,8 @@ impl Plan {
             effects: quirks,
             class,
             surroundings,
-        })
+        };
+        Ok((answer, takes))
     }
 
     /// The machine with what is wrong with it. A machine that can show too little of what was planned is drawn again.

@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::arguments::{Arguments, Cases, Command, Exam, Open, Practice};
 use crate::cases::{Answer, Conditions, Plan, Sizes, plans};
 use crate::site::Sites;
+use crate::socket::{SocketError, pairs};
 
 /// The seeds of the exams that may be made again. They are unlike, so that nothing learnt on one is known of the other.
 const SHORT_SEED: u64 = 20_260_131;
@@ -33,6 +34,13 @@ pub enum ExamError {
     /// The answers could not be sealed or opened.
     #[error(transparent)]
     Sealed(#[from] SealError),
+    /// A recording over a socket was not made.
+    #[error("failed to record {} over a socket", path.display())]
+    Socket {
+        path: PathBuf,
+        #[source]
+        source: SocketError,
+    },
     /// The answers have no JSON form.
     #[error("failed to write the answers as JSON")]
     Json(#[from] serde_json::Error),
@@ -52,6 +60,7 @@ pub fn run(arguments: Arguments) -> Result<String, ExamError> {
     match (arguments.command, arguments.practice) {
         (Some(Command::Cases(asked)), _) => cases(&asked),
         (Some(Command::Open(asked)), _) => open(&asked),
+        (Some(Command::Socket(asked)), _) => pairs::run(&asked),
         (None, Some(asked)) => practice(&asked),
         (None, None) => Ok(String::new()),
     }
@@ -116,6 +125,11 @@ fn make(folder: &Path, plans: Vec<Plan>, seed: u64, exam: &str, conditions: Cond
         }
     }
     cases.sort_by(|one, next| one.case.cmp(&next.case));
+    answers(exam, seed, cases)
+}
+
+/// All answers of an exam as JSON.
+pub fn answers(exam: &str, seed: u64, cases: Vec<Answer>) -> Result<Vec<u8>, ExamError> {
     Ok(serde_json::to_vec_pretty(&Answers { schema: "kinetwin-answers/1", exam, seed, cases })?)
 }
 

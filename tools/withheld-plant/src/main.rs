@@ -31,6 +31,7 @@ mod script;
 mod sensor;
 mod servo;
 mod site;
+mod socket;
 mod stream;
 mod switch;
 mod train;

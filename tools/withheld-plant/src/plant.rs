@@ -103,10 +103,7 @@ impl Plant {
             while let Some(command) = commands.next_if(|command| command.at <= now) {
                 self.tell(now, command);
             }
-            values.clear();
-            for (_, device) in &self.devices {
-                device.read(now, &mut values);
-            }
+            self.read(now, &mut values);
             let is_sample = samples.next_if(|sample| **sample <= now).is_some();
             for (at, stream) in streams.iter_mut().enumerate() {
                 if is_sample || watched[at] || self.signals[at].kind.is_edge() {
@@ -124,7 +121,15 @@ impl Plant {
         }
     }
 
-    /// A command arrives.
+    /// What all sensors see, in the order of the signals.
+    pub fn read(&self, now: f64, values: &mut Vec<f64>) {
+        values.clear();
+        for (_, device) in &self.devices {
+            device.read(now, values);
+        }
+    }
+
+    /// Hands a command to its device; what no device knows goes nowhere.
     pub fn tell(&mut self, now: f64, command: &Command) {
         let Some((device, port)) = command.signal.split_once('.') else { return };
         if let Some((_, told)) = self.devices.iter_mut().find(|(name, _)| name == device) {

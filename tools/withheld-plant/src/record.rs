@@ -57,13 +57,31 @@ impl Surroundings {
     pub fn prompt(self) -> Surroundings {
         Surroundings { age: 0.0, task: 0.0, task_phase: 0.0, filter: 0.0, ..self }
     }
+
+    /// When the machine's task takes a command that is there at `at`, s.
+    pub fn taken_at(&self, at: f64) -> f64 {
+        match self.task {
+            task if task > 0.0 && at > 0.0 => ((at - self.task_phase) / task).ceil() * task + self.task_phase,
+            _ => at,
+        }
+    }
+
+    /// When the reports before `end` are due, s.
+    pub fn due(&self, end: f64) -> Vec<f64> {
+        (0..).map(|k| self.phase + f64::from(k) * self.cycle).take_while(|at| *at < end).collect()
+    }
+
+    /// When a report that is due at `due` looks at the machine, s.
+    pub fn sample(&self, due: f64) -> f64 {
+        (due - self.age).max(0.0)
+    }
 }
 
 /// One message under way: what stands in a line of the trace.
-struct Said {
-    at: f64,
-    from: Sender,
-    text: String,
+pub struct Said {
+    pub at: f64,
+    pub from: Sender,
+    pub text: String,
 }
 
 /// What was seen of each signal at each report's instant, before noise and rounding.
@@ -78,8 +96,8 @@ pub struct Seen {
 pub fn watch(plant: &mut Plant, script: &[Command], around: &Surroundings, end: f64, seed: u64) -> Seen {
     let mut dice = Dice::new(seed, 21);
     let quirks = plant.quirks.clone();
-    let due: Vec<f64> = (0..).map(|k| around.phase + f64::from(k) * around.cycle).take_while(|at| *at < end).collect();
-    let samples: Vec<f64> = due.iter().map(|at| (at - around.age).max(0.0)).collect();
+    let due = around.due(end);
+    let samples: Vec<f64> = due.iter().map(|at| around.sample(*at)).collect();
     let commands = taken(script, plant, around, end, &mut dice);
     let signals = plant.signals.clone();
     let watched: Vec<bool> = signals.iter().map(|signal| passes(&quirks, signal).next().is_some()).collect();
@@ -106,33 +124,38 @@ pub fn taken(script: &[Command], plant: &Plant, around: &Surroundings, end: f64,
             .filter(|command| command.signal == *name)
             .for_each(|command| stream.push(command.at, command.value));
         let of_device = Quirks::of(quirks, device);
-        let mut name = name.clone();
         for quirk in of_device.at("command-link", port) {
             stream = stream.through(quirk, *kind == Kind::Flag, dice, end);
         }
-        for quirk in quirks.iter().filter(|q| q.device == device && q.effect == "swapped" && q.place == "command-link")
-        {
-            let (one, two) =
-                (quirk.component.as_deref().unwrap_or_default(), quirk.with.as_deref().unwrap_or_default());
-            let other = if port == one {
-                two
-            } else if port == two {
-                one
-            } else {
-                port
-            };
-            name = format!("{device}.{other}");
-        }
+        let name = arrives_at(quirks, name);
         let value = |value: f64| if *kind == Kind::Code { value.round() } else { value };
-        let on_task = |at: f64| match around.task {
-            task if task > 0.0 && at > 0.0 => ((at - around.task_phase) / task).ceil() * task + around.task_phase,
-            _ => at,
-        };
         let points = stream.points().iter();
-        all.extend(points.map(|(at, to)| Command { at: on_task(*at), signal: name.clone(), value: value(*to) }));
+        all.extend(points.map(|(at, to)| Command {
+            at: around.taken_at(*at),
+            signal: name.clone(),
+            value: value(*to),
+        }));
     }
     all.sort_by(|a, b| a.at.total_cmp(&b.at));
     all
+}
+
+/// The command that one of this name is taken for.
+pub fn arrives_at(quirks: &[Quirk], name: &str) -> String {
+    let (device, port) = name.split_once('.').unwrap_or_default();
+    let mut name = name.to_owned();
+    for quirk in quirks.iter().filter(|q| q.device == device && q.effect == "swapped" && q.place == "command-link") {
+        let (one, two) = (quirk.component.as_deref().unwrap_or_default(), quirk.with.as_deref().unwrap_or_default());
+        let other = if port == one {
+            two
+        } else if port == two {
+            one
+        } else {
+            port
+        };
+        name = format!("{device}.{other}");
+    }
+    name
 }
 
 /// What stands between a signal's sensor and its report.
@@ -144,8 +167,27 @@ pub fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item
     sensor.chain(of_device.at("report-link", port))
 }
 
+/// All that a signal passes from its sensor to its report, in order: what is wrong there, and the filter of its input.
+pub fn way(quirks: &[Quirk], signal: &Signal, around: &Surroundings) -> Vec<Quirk> {
+    let mut way: Vec<Quirk> = passes(quirks, signal).cloned().collect();
+    for quirk in way.iter_mut().filter(|quirk| quirk.effect == "lost-messages") {
+        quirk.parameters.push(("cycle".to_owned(), around.cycle));
+    }
+    if signal.kind == Kind::Flag && around.filter > 0.0 {
+        way.push(Quirk {
+            effect: "input-filter".to_owned(),
+            parameters: vec![("time_constant".to_owned(), around.filter)],
+            device: String::new(),
+            component: None,
+            place: String::new(),
+            with: None,
+        });
+    }
+    way
+}
+
 pub fn reported(
-    mut stream: Stream,
+    stream: Stream,
     signal: &Signal,
     quirks: &[Quirk],
     around: &Surroundings,
@@ -153,28 +195,12 @@ pub fn reported(
     dice: &mut Dice,
 ) -> Stream {
     let is_flag = signal.kind == Kind::Flag;
-    for quirk in passes(quirks, signal) {
-        let mut quirk = quirk.clone();
-        if quirk.effect == "lost-messages" {
-            quirk.parameters.push(("cycle".to_owned(), around.cycle));
-        }
-        stream = stream.through(&quirk, is_flag, dice, end);
-    }
-    if is_flag && around.filter > 0.0 {
-        let filter = Quirk {
-            effect: "input-filter".to_owned(),
-            parameters: vec![("time_constant".to_owned(), around.filter)],
-            device: String::new(),
-            component: None,
-            place: String::new(),
-            with: None,
-        };
-        stream = stream.through(&filter, true, dice, end);
-    }
-    stream
+    let way = way(quirks, signal, around);
+    way.iter().fold(stream, |stream, quirk| stream.through(quirk, is_flag, dice, end))
 }
 
-fn swap(streams: &mut [Stream], signals: &[Signal], quirks: &[Quirk]) {
+/// Exchanges what stands for two signals whose reports are swapped.
+pub fn swap<T>(streams: &mut [T], signals: &[Signal], quirks: &[Quirk]) {
     for quirk in quirks.iter().filter(|quirk| quirk.effect == "swapped" && quirk.place == "report-link") {
         let place = |port: &Option<String>| {
             let name = format!("{}.{}", quirk.device, port.as_deref().unwrap_or_default());
@@ -200,16 +226,21 @@ pub fn write<W: Write>(
     said.extend(reports(seen, &plant.signals, around, seed));
     // Stable: the automation's first.
     said.sort_by(|a, b| a.at.total_cmp(&b.at));
+    write_said(out, model, &said)
+}
+
+/// Writes messages, sorted by their instants, as a trace of the plant called `model`.
+pub fn write_said<W: Write>(out: W, model: &str, said: &[Said]) -> io::Result<W> {
     let header = Header { source: Source::Plant, model: Some(model.to_owned()), ..Header::default() };
     let mut writer = Writer::new(out, Compression::Zstd, &header)?;
     for Said { at, from, text } in said {
-        writer.message(Instant::from_seconds(at), from, &text)?;
+        writer.message(Instant::from_seconds(*at), *from, text)?;
     }
     writer.finish()
 }
 
 /// The automation's messages: the first sets everything to 0.
-fn commands(script: &[Command], known: &[(String, Kind)]) -> Vec<Said> {
+pub fn commands(script: &[Command], known: &[(String, Kind)]) -> Vec<Said> {
     let mut text = SendValueText::with_capacity(known.len());
     for (name, kind) in known {
         let _ = text.push(name, &value(*kind, 0.0));
@@ -228,34 +259,59 @@ fn commands(script: &[Command], known: &[(String, Kind)]) -> Vec<Said> {
 }
 
 /// The plant's messages: the first holds everything, each further one what has changed.
-fn reports(seen: &Seen, signals: &[Signal], around: &Surroundings, seed: u64) -> Vec<Said> {
-    let mut dice = Dice::new(seed, 22);
-    let keep = (-around.cycle / around.noise_time.max(1e-9)).exp();
-    let fresh = (1.0 - keep * keep).sqrt();
-    let mut noise: Vec<f64> = signals.iter().map(|_| dice.normal()).collect();
-    let mut last: Vec<Option<Value>> = vec![None; signals.len()];
+pub fn reports(seen: &Seen, signals: &[Signal], around: &Surroundings, seed: u64) -> Vec<Said> {
+    let mut reporter = Reporter::new(signals, around, seed);
     let mut said = Vec::new();
     for (due, values) in seen.due.iter().zip(&seen.values) {
-        let mut text = SendValueText::with_capacity(8);
-        for (at, signal) in signals.iter().enumerate() {
-            noise[at] = keep * noise[at] + fresh * dice.normal();
-            let read = values[at] + around.noise * signal.sigma * noise[at];
-            let rounded =
-                if signal.kind == Kind::Level { (read / signal.quantum).round() * signal.quantum } else { read };
-            let now = Some(value(signal.kind, rounded));
-            if now != last[at]
-                && let Some(value) = &now
-            {
-                let _ = text.push(&signal.name, value);
-                last[at] = now;
-            }
-        }
-        let late = (around.jitter * dice.normal()).abs().min(0.4 * around.cycle);
-        if let Some(text) = text.finish() {
+        let (text, late) = reporter.report(values);
+        if let Some(text) = text {
             said.push(Said { at: due + late, from: Sender::Plant, text });
         }
     }
     said
+}
+
+/// From what is seen to what is reported, report by report.
+pub struct Reporter<'a> {
+    signals: &'a [Signal],
+    around: &'a Surroundings,
+    dice: Dice,
+    /// By signal, in units of its sigma.
+    noise: Vec<f64>,
+    last: Vec<Option<Value>>,
+}
+
+impl<'a> Reporter<'a> {
+    /// Before the first report.
+    pub fn new(signals: &'a [Signal], around: &'a Surroundings, seed: u64) -> Reporter<'a> {
+        let mut dice = Dice::new(seed, 22);
+        let noise = signals.iter().map(|_| dice.normal()).collect();
+        Reporter { signals, around, dice, noise, last: vec![None; signals.len()] }
+    }
+
+    /// The next message, one cycle after the one before, and how much later than due it leaves, s. `None` where nothing has
+    /// changed.
+    pub fn report(&mut self, values: &[f64]) -> (Option<String>, f64) {
+        let around = self.around;
+        let keep = (-around.cycle / around.noise_time.max(1e-9)).exp();
+        let fresh = (1.0 - keep * keep).sqrt();
+        let mut text = SendValueText::with_capacity(8);
+        for (at, signal) in self.signals.iter().enumerate() {
+            self.noise[at] = keep * self.noise[at] + fresh * self.dice.normal();
+            let read = values[at] + around.noise * signal.sigma * self.noise[at];
+            let rounded =
+                if signal.kind == Kind::Level { (read / signal.quantum).round() * signal.quantum } else { read };
+            let now = Some(value(signal.kind, rounded));
+            if now != self.last[at]
+                && let Some(value) = &now
+            {
+                let _ = text.push(&signal.name, value);
+                self.last[at] = now;
+            }
+        }
+        let late = (around.jitter * self.dice.normal()).abs().min(0.4 * around.cycle);
+        (text.finish(), late)
+    }
 }
 
 fn value(kind: Kind, number: f64) -> Value {

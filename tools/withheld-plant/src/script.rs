@@ -24,6 +24,14 @@ impl Part {
             Part::HeldOut => 42.0,
         }
     }
+
+    /// What its recording is called.
+    pub fn file(self) -> &'static str {
+        match self {
+            Part::Train => "train.cps.jsonl.zst",
+            Part::HeldOut => "holdout.cps.jsonl.zst",
+        }
+    }
 }
 
 /// A program for all devices of the rig, in order of time.
