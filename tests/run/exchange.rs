@@ -196,13 +196,15 @@ fn what_befalls_a_part_is_told_with_its_place() {
 fn a_run_asks_for_the_signals_that_it_wants_no_faster_than_it_wants_them() {
     let host = Host::new();
     let select = ["--select", "Belt.velocityTarget=100ms", "--select", "Pusher.command"];
-    let run = Running::start(&[&["run", "models/rig", "--connect", &host.url()], &select[..]].concat());
+    let mut run = Running::start(&[&["run", "models/rig", "--connect", &host.url()], &select[..]].concat());
     let (connection, connect) = host.accept_session(200);
     let expect = json!([
         { "name": "Belt.velocityTarget", "minInterval": 100 },
         { "name": "Pusher.command", "minInterval": 0 }
     ]);
     assert_eq!(connect["Signals"], expect);
+    // Before it stands there is no session to be ended in good order.
+    run.line("stands");
     run.interrupt();
     connection.farewell();
     assert_eq!(run.end().code(), 0);
