@@ -42,10 +42,8 @@ pub fn run(listener: &TcpListener, script: &[Command], seconds: f64) -> Result<(
                     return Err(SocketError::Silent { peer: PLANT, seconds: PATIENCE });
                 };
                 // It is stamped as it leaves, as whoever says it would.
-                let at = end.now();
-                end.send(text.clone())?;
+                let at = end.send(text.clone())?;
                 lateness.note(at - due);
-                lateness.note_unsure(end.now() - at);
                 heard.push(Said { at, from, text });
             }
         }
@@ -56,7 +54,7 @@ pub fn run(listener: &TcpListener, script: &[Command], seconds: f64) -> Result<(
 fn welcome(end: &mut End) -> Result<(), SocketError> {
     let (_, text) = end.expect()?;
     match Message::decode(&text) {
-        Ok(Message::Connect(connect)) if connect.enable => end.send(reply(&connect)),
+        Ok(Message::Connect(connect)) if connect.enable => end.send(reply(&connect)).map(|_| ()),
         Ok(other) => Err(end.bad(&text, &format!("a {} before a Connect", other.name()))),
         Err(error) => Err(end.bad(&text, &error.to_string())),
     }

@@ -19,20 +19,21 @@ const LEAD: f64 = 1e-3;
 /// How far the plant may lag behind the time meanwhile, s: what it has to catch up with keeps others from their work.
 const SLICE: f64 = 4e-3;
 
-/// Runs `plant` for `seconds` under the automation at `address`, then leaves.
+/// Runs `plant` for `seconds` under the automation at `address`, then leaves. Gives the instants of its clock at which messages
+/// arrived as well.
 pub fn run(
     address: SocketAddr,
     plant: Plant,
     around: &Surroundings,
     seconds: f64,
     seed: u64,
-) -> Result<Lateness, SocketError> {
+) -> Result<(Vec<f64>, Lateness), SocketError> {
     let mut end = End::connect(address, AUTOMATION)?;
     let id = to_base64(&format!("withheld-plant {seed:016x}"));
     introduce(&mut end, &id, true)?;
     let signals = plant.signals.clone();
     let running = Running::new(plant, around, seed);
-    let mut client = Client { end, running, lateness: Lateness::default() };
+    let mut client = Client { end, running, arrived: Vec::new(), lateness: Lateness::default() };
     client.begin()?;
     let mut reporter = Reporter::new(&signals, around, seed);
     for due in around.due(seconds) {
@@ -47,7 +48,7 @@ pub fn run(
     }
     client.live_until(seconds)?;
     introduce(&mut client.end, &id, false)?;
-    Ok(client.lateness)
+    Ok((client.arrived, client.lateness))
 }
 
 /// Says `Connect` and waits until that is accepted.
@@ -66,6 +67,7 @@ fn introduce(end: &mut End, id: &str, enable: bool) -> Result<(), SocketError> {
 struct Client {
     end: End,
     running: Running,
+    arrived: Vec<f64>,
     lateness: Lateness,
 }
 
@@ -93,6 +95,7 @@ impl Client {
     }
 
     fn hear(&mut self, at: f64, text: &str) -> Result<(), SocketError> {
+        self.arrived.push(at);
         let entries = match Message::decode(text) {
             Ok(Message::SendValue(entries)) => entries,
             Ok(other) => return Err(self.end.bad(text, &format!("a {} now", other.name()))),

@@ -38,7 +38,7 @@ impl Clock {
 #[derive(Clone, Debug, Default)]
 pub struct Lateness {
     all: Vec<f64>,
-    /// The longest that a command took from its stamp until the system had it.
+    /// By how much the way of a command was longer or shorter than that of most.
     unsure: f64,
 }
 
@@ -48,12 +48,15 @@ impl Lateness {
         self.all.push(late);
     }
 
-    /// A command left so long after its stamp.
-    pub fn note_unsure(&mut self, unsure: f64) {
-        self.unsure = self.unsure.max(unsure);
+    /// Messages were sent at these instants of one clock, and were there at those of another.
+    pub fn note_ways(&mut self, sent: &[f64], arrived: &[f64]) {
+        let mut ways: Vec<f64> = sent.iter().zip(arrived).map(|(sent, arrived)| arrived - sent).collect();
+        ways.sort_by(f64::total_cmp);
+        let middle = ways.get(ways.len() / 2).copied().unwrap_or(0.0);
+        self.unsure = ways.iter().map(|way| (way - middle).abs()).fold(self.unsure, f64::max);
     }
 
-    /// By how much the stamp of a command may be wrong.
+    /// By how much the way of a command was longer or shorter than that of most: so wrong is the recording about it.
     pub fn unsure(&self) -> f64 {
         self.unsure
     }

@@ -114,9 +114,12 @@ impl End {
         self.next(until)?.ok_or(SocketError::Silent { peer: self.peer, seconds: PATIENCE })
     }
 
-    /// Sends a message.
-    pub fn send(&mut self, text: String) -> Result<(), SocketError> {
-        let mut sent = self.socket.send(Message::text(text));
+    /// Sends a message. Gives the instant just before the system had it.
+    pub fn send(&mut self, text: String) -> Result<f64, SocketError> {
+        // The frame is made first: what is between an instant and the message it is told of must be short.
+        self.socket.write(Message::text(text)).map_err(|error| self.lost(error))?;
+        let before = self.now();
+        let mut sent = self.socket.flush();
         let until = self.now() + PATIENCE;
         // What the socket does not take at once waits within the WebSocket.
         while matches!(&sent, Err(Error::Io(error)) if error.kind() == io::ErrorKind::WouldBlock) {
@@ -125,7 +128,8 @@ impl End {
             ready(&mut [fd], left).map_err(|error| self.lost(Error::Io(error)))?;
             sent = self.socket.flush();
         }
-        sent.map_err(|error| self.lost(error))
+        sent.map_err(|error| self.lost(error))?;
+        Ok(before)
     }
 
     /// The error of a message that no recording can hold.

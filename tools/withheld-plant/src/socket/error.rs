@@ -34,10 +34,10 @@ pub enum SocketError {
         1e3 * late, 1e3 * allowed
     )]
     Late { late: f64, allowed: f64 },
-    /// A command did not leave when its stamp says.
+    /// A command was not there when its stamp says.
     #[error(
-        "the recording did not keep time: a command left {:.1} ms after its stamp, and at most {:.1} ms are allowed: this \
-         machine is too busy; record when it has less to do",
+        "the recording did not keep time: the way of a command took {:.1} ms more or less than that of most, and at most \
+         {:.1} ms are allowed: this machine is too busy; record fewer at a time (--jobs), or when it has less to do",
         1e3 * late, 1e3 * allowed
     )]
     Unsure { late: f64, allowed: f64 },

@@ -24,15 +24,17 @@ use std::thread;
 pub use clock::Lateness;
 pub use error::SocketError;
 
+use kinetwin::trace::Sender;
+
 use crate::cases::Take;
 use crate::record::Said;
 
 /// Which share of a reporting cycle a recording may be late: as much as the most that a report's stamp is.
 const ALLOWED: f64 = 0.4;
 
-/// How long after its stamp a command may leave, s: a motor that is told to turn round 0.5 ms later than was recorded has made
-/// another 15 counts of its encoder, and keeps them.
-const UNSURE: f64 = 5e-4;
+/// By how much the way of a command may differ from that of most, s: a motor that is told to turn round 0.2 ms later than was
+/// recorded has made another 6 counts of its encoder, and keeps them.
+const UNSURE: f64 = 2e-4;
 
 /// Of how many events that is asked. What a system with other things to do is now and then late is part of a recording.
 const ASKED: f64 = 0.999;
@@ -57,7 +59,13 @@ pub fn record(take: &Take, seconds: f64) -> Result<(Vec<Said>, Lateness), Socket
         (automation, plant.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     });
     match (automation, plant) {
-        (Ok((said, one)), Ok(two)) => Ok((said, one.and(two))),
+        (Ok((said, one)), Ok((arrived, two))) => {
+            let commands = said.iter().filter(|said| said.from == Sender::Automation);
+            let sent: Vec<f64> = commands.map(|said| said.at).collect();
+            let mut lateness = one.and(two);
+            lateness.note_ways(&sent, &arrived);
+            Ok((said, lateness))
+        }
         // The end that has a reason of its own tells more than the one that was left alone.
         (Err(error), Err(other)) if error.is_consequence() => Err(other),
         (Err(error), _) | (_, Err(error)) => Err(error),
