@@ -149,7 +149,7 @@ impl Axis {
     fn pass(&mut self, moment: Moment) {
         let Axis { limits: Limits { velocity, acceleration }, profile, target, stages, motor, .. } = self;
         let (velocity, acceleration) = (*velocity, *acceleration);
-        let bounds = Bounds { velocity, acceleration, deceleration: acceleration, force: f64::INFINITY, lag: 0.0 };
+        let bounds = Bounds { velocity, acceleration, deceleration: acceleration, force: f64::INFINITY };
         let bounds = stages.actuator.bounds(bounds, *motor, moment);
         let bounds = stages.load.bounds(bounds, *motor, moment);
         profile.limit(Limits { velocity: bounds.velocity, acceleration: bounds.acceleration.min(bounds.deceleration) });

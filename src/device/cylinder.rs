@@ -68,7 +68,6 @@ impl Cylinder {
             acceleration: f64::INFINITY,
             deceleration: f64::INFINITY,
             force: f64::INFINITY,
-            lag: 0.0,
         };
         let bounds = stages.actuator.bounds(bounds, *piston, moment);
         let fastest = bounds.velocity;

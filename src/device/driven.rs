@@ -133,7 +133,6 @@ impl Driven {
             acceleration: settings.slopes.rising,
             deceleration: coasting.unwrap_or(settings.slopes.falling),
             force: f64::INFINITY,
-            lag: 0.0,
         };
         let bounds = stages.actuator.bounds(bounds, *motor, moment);
         let reference = stages.actuator.reference(*reference, *motor, moment);

@@ -51,8 +51,6 @@ pub struct Bounds {
     pub deceleration: f64,
     /// Greatest force or torque either way, N or N·m.
     pub force: f64,
-    /// The time constant with which an ideal axis closes on its target, s; 0: at once, and so of every other drive.
-    pub lag: f64,
 }
 
 /// Friction as a set-valued law: while the axis moves it opposes with `sliding + viscous·|v|`, at rest with any force up to
@@ -133,6 +131,11 @@ pub trait Stage: Send + Sync + fmt::Debug {
     /// What the drive may do now.
     fn bounds(&mut self, bounds: Bounds, _motion: Motion, _moment: Moment) -> Bounds {
         bounds
+    }
+
+    /// The time constant with which an ideal axis closes on its target, s; 0: at once.
+    fn lag(&self) -> f64 {
+        0.0
     }
 
     /// Which share of the force that a drive exerts reaches the axis, the force being `effort` now; above 0.
@@ -237,6 +240,11 @@ impl Path {
     /// See [`Stage::bounds`].
     pub fn bounds(&mut self, bounds: Bounds, motion: Motion, moment: Moment) -> Bounds {
         self.stages.iter_mut().fold(bounds, |bounds, stage| stage.bounds(bounds, motion, moment))
+    }
+
+    /// See [`Stage::lag`].
+    pub fn lag(&self) -> f64 {
+        self.stages.iter().map(|stage| stage.lag()).sum()
     }
 
     /// See [`Stage::strength`].

@@ -165,7 +165,7 @@ pub(super) fn build(parameters: &Parameters, instance: &str) -> Result<Box<dyn D
     }
     let position_target = Slope::default();
     let free = f64::INFINITY;
-    let bounds = Bounds { velocity: free, acceleration: free, deceleration: free, force: drive.limit, lag: 0.0 };
+    let bounds = Bounds { velocity: free, acceleration: free, deceleration: free, force: drive.limit };
     Ok(Box::new(ServoAxis {
         mode,
         position_target,
@@ -381,9 +381,9 @@ impl ServoAxis {
         let bounds = servo_path::bounds(stages, &self.nominal, before, moment);
         let error = self.position_target.value() - before.position;
         let error = stages.actuator.reference(error, before, moment);
-        if bounds.lag > 0.0 {
-            let closing =
-                Closing { time_constant: bounds.lag, velocity: bounds.velocity, acceleration: bounds.acceleration };
+        let time_constant = stages.actuator.lag();
+        if time_constant > 0.0 {
+            let closing = Closing { time_constant, velocity: bounds.velocity, acceleration: bounds.acceleration };
             self.tracked = closing.after(before, before.position + error, moment.span);
         } else if bounds.acceleration.is_finite() {
             let target = &self.position_target;

@@ -28,7 +28,6 @@ pub(super) fn bounds(stages: &mut Stages, nominal: &Nominal, motion: Motion, mom
         acceleration: f64::INFINITY,
         deceleration: f64::INFINITY,
         force: nominal.drive.limit,
-        lag: 0.0,
     };
     stages.actuator.bounds(bounds, motion, moment)
 }

@@ -8,7 +8,7 @@
 //! solution is exact.
 
 use super::table::{BASE, time};
-use crate::device::path::{Bounds, Moment, Motion, Stage};
+use crate::device::path::{Moment, Motion, Stage};
 use crate::effect::{Build, EffectDescriptor};
 use crate::plant::EffectPlace;
 
@@ -43,8 +43,8 @@ impl Stage for PositionLoop {
         f64::INFINITY
     }
 
-    fn bounds(&mut self, bounds: Bounds, _motion: Motion, _moment: Moment) -> Bounds {
-        Bounds { lag: bounds.lag + self.time_constant, ..bounds }
+    fn lag(&self) -> f64 {
+        self.time_constant
     }
 
     fn state(&self, _visit: &mut dyn FnMut(f64)) {}

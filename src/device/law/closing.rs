@@ -5,9 +5,9 @@
 //! dx/dt = v,    v → clamp((u − x)/T, ±v_max),    |dv/dt| ≤ a_max
 //! ```
 //!
-//! Source: the position loop of a servo drive, without its inner loops (K. J. Åström, T. Hägglund, Advanced PID Control, ISA
-//! 2006, section 3.5, saturation of an actuator within the loop). While the target u stands the law is exact but for the steepness,
-//! which is computed from one instant to the next.
+//! Source: the first-order lag (K. J. Åström, T. Hägglund, Advanced PID Control, ISA 2006, section 2.4) as the loop that makes it, and
+//! saturations of its speed and of that speed's change (H. K. Khalil, Nonlinear Systems, Prentice Hall 2002, section 1.2.7). While
+//! the target u stands the law is exact but for the steepness, which is computed from one instant to the next.
 
 use crate::device::path::Motion;
 

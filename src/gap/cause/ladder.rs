@@ -58,8 +58,6 @@ pub struct Ladder {
     pub too_few_blocks: Option<f64>,
     /// On which blocks that were not seen an effect has to be worth having.
     pub folds: Folds,
-    /// Whether an effect that explains much of what is left was not worth having.
-    is_unsure: bool,
 }
 
 impl Ladder {
@@ -98,7 +96,6 @@ pub fn climb(
         tried: 0,
         too_few_blocks: None,
         folds: Folds::Long,
-        is_unsure: false,
     };
     if evidence(bench.subject, &prediction) <= THRESHOLD {
         return Some(ladder);
@@ -106,14 +103,12 @@ pub fn climb(
     ladder.subject = bench.subject.tolerant(&prediction);
     ladder.best = bench.with(&ladder.subject).trial(&[], ladder.bare.at.clone())?;
     loop {
-        ladder.is_unsure = false;
-        while ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
-            if !step(bench, &mut ladder, is_asked, tell) {
-                break;
-            }
+        let mut end = Rung::Taken;
+        while end == Rung::Taken && ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
+            end = step(bench, &mut ladder, is_asked, tell);
         }
-        ladder.is_unsure |= drop_idle(bench, &mut ladder);
-        if !ladder.is_unsure || !step_by_two(bench, &mut ladder, is_asked, tell) {
+        let is_dropped = drop_idle(bench, &mut ladder);
+        if !(is_dropped || end == Rung::Unsure) || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }
     }
@@ -129,21 +124,32 @@ pub fn floor(score: &Score) -> (f64, f64) {
     (sum(|floor| floor.0), sum(|floor| floor.1))
 }
 
-/// One rung: whether it was worth it.
-fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> bool {
+/// How a rung ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rung {
+    /// With another effect.
+    Taken,
+    /// Without one, though one would explain much of what is left.
+    Unsure,
+    /// Without one.
+    Left,
+}
+
+/// One rung.
+fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> Rung {
     let below = ladder.best.clone();
-    let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return false };
+    let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return Rung::Left };
     let is_evident = |prediction: Prediction| evidence(bench.subject, &prediction) > THRESHOLD;
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
-        return false;
+        return Rung::Left;
     }
-    let Some(standing) = Standing::of_trial(bench, &plain) else { return false };
+    let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
     if standing.excess(plain.cost) < least_gain(1, 1) * plain.inflation() {
-        return false;
+        return Rung::Left;
     }
     let subject = ladder.subject.clone();
     let weighed = bench.with(&subject);
-    let Some(standing) = Standing::of_trial(&weighed, &below) else { return false };
+    let Some(standing) = Standing::of_trial(&weighed, &below) else { return Rung::Left };
     let excess = standing.excess(below.cost);
     let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
@@ -159,15 +165,13 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let worth = choices.iter().position(|(next, subject)| is_worth_having(&bench.with(subject), &below, next, ladder));
     if let Some(place) = worth {
         (ladder.best, ladder.subject) = choices.into_iter().nth(place).expect("the place of one of them");
-        return true;
+        return Rung::Taken;
     }
-    if let Some((next, subject)) = choices.first() {
-        if below.set.is_empty() {
-            ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
-        }
-        ladder.is_unsure = gain(next) >= LEAST_SHARE_OF_REST * excess;
+    let Some((next, subject)) = choices.first() else { return Rung::Left };
+    if below.set.is_empty() {
+        ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
     }
-    false
+    if gain(next) >= LEAST_SHARE_OF_REST * excess { Rung::Unsure } else { Rung::Left }
 }
 
 /// How a trial's deviance stands to where nothing is wrong.

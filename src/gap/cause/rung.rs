@@ -19,7 +19,7 @@ use super::library;
 use super::starts::UNLIMITED;
 use super::tangent::{Beside, Tangent, product};
 use crate::gap::fit::{Effort, least_squares, search, sum_of_squares};
-use crate::gap::{Score, Subject};
+use crate::gap::{Prediction, Score, Subject};
 
 /// What a candidate must explain to be looked at closely.
 const PROMISING: f64 = 0.02;
@@ -43,8 +43,8 @@ pub fn rung(
     let Some(prediction) = bench.predict(&below.set, &below.at) else { return Vec::new() };
     let Some(tangent) = Tangent::new(bench, below) else { return Vec::new() };
     let score = bench.subject.score(&prediction);
-    let mut library = library::candidates(bench.subject, &prediction, &score, &|id| is_asked(id));
-    library.retain(|candidate| is_admitted(candidate) && !below.set.iter().any(|there| there.is_same(candidate)));
+    let mut library = candidates_beside(bench, below, (&prediction, &score), is_asked);
+    library.retain(is_admitted);
     let blurred = blur::blurred(bench.subject, &score);
     let is_smooth = !bench.is_rugged() && is_in_levels(&score);
     let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
@@ -89,6 +89,28 @@ pub fn rung(
         false => looks.trial(&glance),
     });
     distinct(trials.collect())
+}
+
+/// All candidates that the library has beside the effects of `below`.
+pub fn library_beside(
+    bench: &Bench<'_>,
+    below: &Trial,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Option<Vec<Candidate>> {
+    let prediction = bench.predict(&below.set, &below.at)?;
+    let score = bench.subject.score(&prediction);
+    Some(candidates_beside(bench, below, (&prediction, &score), is_asked))
+}
+
+fn candidates_beside(
+    bench: &Bench<'_>,
+    below: &Trial,
+    (prediction, score): (&Prediction, &Score),
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Vec<Candidate> {
+    let mut library = library::candidates(bench.subject, prediction, score, &|id| is_asked(id));
+    library.retain(|candidate| !below.set.iter().any(|there| there.is_same(candidate)));
+    library
 }
 
 /// Whether more of a score's excess lies in levels than in edges.

@@ -12,8 +12,9 @@
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
+use super::candidate::Candidate;
 use super::ladder::{Ladder, MOST_EFFECTS, Standing, Tell, anew, is_worth_having, settle};
-use super::rung::rung;
+use super::rung::{library_beside, rung};
 use super::unseen::Folds;
 
 /// Of the excess, what must be left.
@@ -40,11 +41,12 @@ pub fn step_by_two(
         return false;
     }
     let beside = |stone: &Trial| rung(&weighed, stone, standing.excess(stone.cost), is_asked, &|_| true, tell);
-    let alone = beside(&below);
-    let mut free: Vec<Trial> = alone.par_iter().filter_map(|trial| giving_way(&weighed, &below, trial)).collect();
+    let Some(library) = library_beside(&weighed, &below, is_asked) else { return false };
+    let alone = library.into_par_iter().with_max_len(1);
+    let mut free: Vec<Trial> = alone.filter_map(|candidate| giving_way(&weighed, &below, candidate)).collect();
     free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let pairs: Vec<Trial> = stones(&free).iter().flat_map(beside).collect();
-    ladder.tried += alone.len() + pairs.len();
+    ladder.tried += free.len() + pairs.len();
     let pair = pairs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
     let settled = pair.and_then(|pair| settle(bench, &weighed, pair, false)).and_then(|(pair, subject)| {
         let deeper = deepest(&bench.with(&subject), &pair, below.parameters());
@@ -62,17 +64,18 @@ pub fn step_by_two(
 
 /// A candidate beside those of `below` with everything free, from near and far: what does nearly what one of them does (a lag, and a
 /// dead time) shows nothing until that gives way.
-fn giving_way(bench: &Bench<'_>, below: &Trial, trial: &Trial) -> Option<Trial> {
-    let candidate = trial.set.last()?;
-    let effort = anew(bench.ranges(&trial.set).len());
-    let count = candidate.starts.len();
+fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<Trial> {
+    let starts = candidate.starts.clone();
+    let set: Vec<Candidate> = below.set.iter().cloned().chain([candidate]).collect();
+    let effort = anew(bench.ranges(&set).len());
+    let count = starts.len();
     let mut places = vec![count / 4, count / 2, (3 * count) / 4];
     places.dedup();
     let fitted = places.into_iter().filter_map(|place| {
         let mut at = below.at[..below.parameters()].to_vec();
-        at.extend(&candidate.starts[place]);
-        at.extend(bench.nominal(&trial.set));
-        bench.fit(&trial.set, &[at], effort)
+        at.extend(&starts[place]);
+        at.extend(bench.nominal(&set));
+        bench.fit(&set, &[at], effort)
     });
     fitted.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
