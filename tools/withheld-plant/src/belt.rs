@@ -1,11 +1,10 @@
 //! A belt with boxes and two light barriers.
 
+use crate::belt_drive::BeltDrive;
 use crate::chance::Dice;
-use crate::drive::Drive;
 use crate::plant::Device;
 use crate::quirk::{Quirk, Quirks};
 use crate::sensor::Along;
-use crate::train::Train;
 
 /// What a belt and the bay that feeds it are built to.
 #[derive(Clone, Debug)]
@@ -24,14 +23,8 @@ pub struct BeltParameters {
 #[derive(Clone, Debug)]
 pub struct Belt {
     parameters: BeltParameters,
-    drive: Drive,
-    train: Train,
-    shaft: f64,
+    drive: BeltDrive,
     travel: f64,
-    target: f64,
-    direction: f64,
-    slower: f64,
-    supply: f64,
     /// Boxes follow no steeper change of speed than this.
     grip: f64,
     boxes: Vec<Box>,
@@ -65,14 +58,8 @@ impl Belt {
         parameters.interval += bay.value("part-spacing-error", "time").unwrap_or(0.0);
         let beams = ["lightBarrierA", "lightBarrierB"];
         Belt {
-            drive: Drive::new(parameters.acceleration, all),
-            train: Train::new(all),
-            shaft: 0.0,
+            drive: BeltDrive::new(parameters.acceleration, all),
             travel: 0.0,
-            target: 0.0,
-            direction: 0.0,
-            slower: all.value("load-dependent-speed", "coefficient").unwrap_or(0.0),
-            supply: 1.0 - all.value("supply-drop", "fraction").unwrap_or(0.0),
             grip: all.value("part-slip", "acceleration").unwrap_or(f64::INFINITY),
             boxes: Vec::new(),
             put: 0,
@@ -92,14 +79,14 @@ impl Belt {
         self.put += 1;
         let BeltParameters { box_at, box_length, .. } = self.parameters;
         if self.boxes.iter().all(|other| (other.centre - box_at).abs() >= box_length) {
-            let speed = self.train.load_speed();
+            let speed = self.drive.belt_speed();
             let sticks_at = self.dice.between(0.4, 1.5);
             self.boxes.push(Box { centre: box_at, speed, sticks_at, stuck_until: 0.0 });
         }
     }
 
     fn carry(&mut self, now: f64, span: f64, way: f64) {
-        let (length, speed) = (self.parameters.length, self.train.load_speed());
+        let (length, speed) = (self.parameters.length, self.drive.belt_speed());
         for carried in &mut self.boxes {
             if let Some(time) = self.sticks
                 && carried.centre >= carried.sticks_at
@@ -134,34 +121,24 @@ impl Belt {
 
 impl Device for Belt {
     fn command(&mut self, now: f64, port: &str, value: f64) {
-        match port {
-            "velocityTarget" => self.target = value,
-            "motorDirection" => self.direction = value,
-            _ => {}
-        }
-        self.drive.command(now, self.direction != 0.0, self.direction * self.target);
+        self.drive.command(now, port, value);
     }
 
     fn advance(&mut self, now: f64, span: f64, others: usize) {
         self.feed(now - span);
-        let share = (1.0 - self.slower * self.boxes.len() as f64).max(0.0) * self.supply.powi(others as i32);
-        self.shaft += self.drive.advance(now, span, share);
-        let way = self.train.advance(span, self.shaft, self.drive.speed());
+        let way = self.drive.advance(now, span, self.boxes.len(), others);
         self.travel += way;
         self.carry(now, span, way);
         self.look();
     }
 
     fn read(&self, _now: f64, values: &mut Vec<f64>) {
-        let speed = self.drive.speed();
-        let sign = if speed.abs() > 1e-3 { speed.signum() } else { 0.0 };
-        let flags = [self.beams[0].is_on(), self.beams[1].is_on()].map(f64::from);
-        values.extend([speed, f64::from(self.direction != 0.0), f64::from(speed.abs() > 1e-3), sign]);
-        values.extend(flags);
+        self.drive.read(values);
+        values.extend([self.beams[0].is_on(), self.beams[1].is_on()].map(f64::from));
     }
 
     fn moves(&self) -> bool {
-        self.drive.speed().abs() > 1e-3
+        self.drive.moves()
     }
 }
 

@@ -2,14 +2,17 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use sealed_answers::SealError;
 use serde::Serialize;
 
 use crate::arguments::{Arguments, Cases, Command, Exam, Open, Practice};
-use crate::cases::{Answer, Conditions, Plan, Sizes, plans};
+use crate::cases::Answer;
+use crate::plans::{Plan, Sizes, plans};
 use crate::site::Sites;
 use crate::socket::{SocketError, pairs};
+use crate::workbench::Conditions;
 
 /// The seeds of the exams that may be made again. They are unlike, so that nothing learnt on one is known of the other.
 const SHORT_SEED: u64 = 20_260_131;
@@ -108,14 +111,18 @@ fn make(folder: &Path, plans: Vec<Plan>, seed: u64, exam: &str, conditions: Cond
     }
     let digits = plans.len().to_string().len().max(3);
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let make = |(number, plan): (usize, &Plan)| {
+    let make = |number: usize, plan: &Plan| {
         let path = folder.join(format!("case-{:0digits$}", number + 1));
         plan.make(&path, conditions).map_err(|source| ExamError::Write { path, source })
     };
-    // Each worker takes every so-manieth case; the answers come back in the cases' order.
+    // Some take a hundred times as long as others: each worker takes the next one that is left.
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let numbers = std::iter::from_fn(|| Some(next.fetch_add(1, Ordering::Relaxed)));
+        numbers.map_while(|number| Some(make(number, plans.get(number)?))).collect::<Vec<_>>()
+    };
     let made = std::thread::scope(|scope| {
-        let worker = |first: usize| plans.iter().enumerate().skip(first).step_by(workers).map(make).collect::<Vec<_>>();
-        let workers: Vec<_> = (0..workers).map(|first| scope.spawn(move || worker(first))).collect();
+        let workers: Vec<_> = (0..workers).map(|_| scope.spawn(worker)).collect();
         workers.into_iter().map(|worker| worker.join()).collect::<Vec<_>>()
     });
     let mut cases = Vec::new();

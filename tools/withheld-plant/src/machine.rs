@@ -14,10 +14,16 @@ pub trait Machine {
     fn commands(&self) -> Vec<(String, Kind)>;
     /// What its automation tells it while it has `quirks`; `seed` is that of what befalls its boxes.
     fn program(&self, part: Part, quirks: &[Quirk], seed: u64, dice: &mut Dice) -> Vec<Command>;
-    /// The same with each measure of a device larger by `share` of itself, one at a time.
-    fn with_each_larger(&self, device: &str, share: f64) -> Vec<Box<dyn Machine>>;
+    /// Another like it.
+    fn boxed(&self) -> Box<dyn Machine>;
+    /// What of a device is built to a tolerance.
+    fn measures(&mut self, device: &str) -> Vec<&mut f64>;
     /// Whether it has what stands for a device of the rig.
     fn has(&self, device: &str) -> bool;
+    /// The device that reports what befalls the one called `device`: of a bay the belt that it feeds.
+    fn reporter<'a>(&'a self, device: &'a str) -> &'a str {
+        device
+    }
     /// What the rig calls a device of the kind of the one called `device`.
     fn kind(&self, device: &str) -> String;
     /// It as a rig, if it is one.
@@ -41,13 +47,20 @@ impl Machine for RigParameters {
         script::program(part, dice)
     }
 
-    fn with_each_larger(&self, device: &str, share: f64) -> Vec<Box<dyn Machine>> {
-        let all = RigParameters::with_each_larger(self, device, share);
-        all.into_iter().map(|one| Box::new(one) as Box<dyn Machine>).collect()
+    fn boxed(&self) -> Box<dyn Machine> {
+        Box::new(self.clone())
+    }
+
+    fn measures(&mut self, device: &str) -> Vec<&mut f64> {
+        self.all_measures().into_iter().filter(|(of, _)| *of == device).map(|(_, measure)| measure).collect()
     }
 
     fn has(&self, _device: &str) -> bool {
         true
+    }
+
+    fn reporter<'a>(&'a self, device: &'a str) -> &'a str {
+        if device == "Feed" { "Belt" } else { device }
     }
 
     fn kind(&self, device: &str) -> String {
@@ -61,4 +74,18 @@ impl Machine for RigParameters {
     fn fitted(&self, quirk: Quirk) -> Quirk {
         quirk
     }
+}
+
+/// The same with the measures of a device larger by these shares of themselves, in their order.
+pub fn with_larger(machine: &dyn Machine, device: &str, shares: &[f64]) -> Box<dyn Machine> {
+    let mut larger = machine.boxed();
+    larger.measures(device).into_iter().zip(shares).for_each(|(measure, share)| *measure *= 1.0 + share);
+    larger
+}
+
+/// The same with each measure of a device larger by `share` of itself, one at a time.
+pub fn with_each_larger(machine: &dyn Machine, device: &str, share: f64) -> Vec<Box<dyn Machine>> {
+    let count = machine.boxed().measures(device).len();
+    let one = |place: usize| (0..count).map(|at| if at == place { share } else { 0.0 }).collect::<Vec<f64>>();
+    (0..count).map(|place| with_larger(machine, device, &one(place))).collect()
 }

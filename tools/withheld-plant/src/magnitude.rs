@@ -14,8 +14,6 @@
 //! levels that part is taken away which its measures explain, by their own runs J and what is known of them beforehand:
 //! D² = d·d − dᵀJ(1 + JᵀJ)⁻¹Jᵀd.
 
-use std::rc::Rc;
-
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde::{Deserialize, Serialize};
 
@@ -84,12 +82,11 @@ impl Hidden {
     }
 }
 
-/// The distance D of two runs, but for what `hidden` measures can take away of it.
-pub fn distance(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundings, hidden: &[Rc<Hidden>]) -> f64 {
+/// The distance D of two runs of a device, but for what its `hidden` measures can take away of it.
+pub fn distance(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundings, hidden: &Hidden) -> f64 {
     let apart = apart(one, other, signals, around);
     let levels = product(&apart, &apart);
-    let taken = hidden.iter().map(|hidden| hidden.takes(&apart)).fold(0.0, f64::max);
-    ((levels - taken).max(0.0) + flags_apart(one, other, signals)).sqrt()
+    ((levels - hidden.takes(&apart)).max(0.0) + flags_apart(one, other, signals)).sqrt()
 }
 
 /// The differences of all levels, in units of what noise and rounding leave unsure.
@@ -140,7 +137,7 @@ mod tests {
         let heard = Surroundings::draw(&mut crate::chance::Dice::new(1, 2));
         let around = Surroundings { cycle: 0.01, noise: 0.0, noise_time: 1e-3, ..heard };
         let (base, moved) = (seen(&[0.0, 0.0, 0.0]), seen(&[0.0, 100.0, 0.0]));
-        let hidden = [Rc::new(Hidden::new(&[moved], &base, &signals, &around))];
+        let hidden = Hidden::new(&[moved], &base, &signals, &around);
         let off = |values: &[f64]| distance(&seen(values), &base, &signals, &around, &hidden);
         // Along the measure next to nothing is left, across it all of it.
         assert!(off(&[0.0, 50.0, 0.0]) < 0.51 && (off(&[0.0, 50.0, 7.0]) - 7.0).abs() < 0.05);

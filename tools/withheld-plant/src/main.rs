@@ -8,6 +8,7 @@ mod bench;
 
 mod arguments;
 mod belt;
+mod belt_drive;
 mod cases;
 mod catalogue;
 mod chance;
@@ -20,6 +21,7 @@ mod line;
 mod machine;
 mod magnitude;
 mod motor;
+mod plans;
 mod plant;
 mod ports;
 mod pusher;
@@ -35,6 +37,7 @@ mod socket;
 mod stream;
 mod switch;
 mod train;
+mod workbench;
 
 use std::process::ExitCode;
 

@@ -93,6 +93,19 @@ impl Plant {
         Plant { devices, commands, signals, quirks: quirks.to_vec(), company: Vec::new(), moved: Vec::new() }
     }
 
+    /// How many devices besides `device` moved, from when on, as it has run so far.
+    pub fn company_of(&self, device: &str) -> Vec<(f64, usize)> {
+        let own = self.devices.iter().position(|(name, _)| name == device).unwrap_or_default();
+        self.moved.iter().map(|(from, moved)| (*from, (moved & !(1 << own)).count_ones() as usize)).collect()
+    }
+
+    /// With only one of its devices, which no other touches, in this company.
+    pub fn keep(&mut self, device: &str, company: Vec<(f64, usize)>) {
+        self.devices.retain(|(name, _)| name == device);
+        self.signals.retain(|signal| signal.parts().0 == device);
+        self.company = company;
+    }
+
     /// Runs under `commands`, sorted by their instants, until `end`; gives what each sensor sees: of edges and of
     /// whatever is `watched` at every step, of everything else at the sorted `samples` only.
     pub fn run(&mut self, commands: &[Command], samples: &[f64], watched: &[bool], end: f64) -> Vec<Stream> {

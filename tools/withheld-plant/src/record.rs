@@ -92,6 +92,15 @@ pub struct Seen {
     pub values: Vec<Vec<f64>>,
 }
 
+impl Seen {
+    /// Of one device alone, whose `signals` these are among.
+    pub fn of(&self, device: &str, signals: &[Signal]) -> Seen {
+        let is_own: Vec<bool> = signals.iter().map(|signal| signal.parts().0 == device).collect();
+        let own = |values: &Vec<f64>| values.iter().zip(&is_own).filter(|(_, own)| **own).map(|(v, _)| *v).collect();
+        Seen { due: self.due.clone(), values: self.values.iter().map(own).collect() }
+    }
+}
+
 /// Lets `plant` run under `script` and looks at it.
 pub fn watch(plant: &mut Plant, script: &[Command], around: &Surroundings, end: f64, seed: u64) -> Seen {
     let mut dice = Dice::new(seed, 21);

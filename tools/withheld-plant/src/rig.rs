@@ -57,14 +57,14 @@ impl RigParameters {
     /// (an encoder's lines, the instants of the boxes) is exact.
     pub fn built(tolerance: f64, dice: &mut Dice) -> RigParameters {
         let mut built = RigParameters::nominal();
-        for (_, measure) in built.measures() {
+        for (_, measure) in built.all_measures() {
             *measure *= 1.0 + dice.between(-tolerance, tolerance);
         }
         built
     }
 
     /// All measures that are built to a tolerance, each with its device.
-    fn measures(&mut self) -> Vec<(&'static str, &mut f64)> {
+    pub fn all_measures(&mut self) -> Vec<(&'static str, &mut f64)> {
         let RigParameters { belt, pusher, robot, gripper, servo, motor } = self;
         let mut belts = vec![&mut belt.acceleration, &mut belt.box_length];
         belts.extend(&mut belt.barriers);
@@ -88,28 +88,6 @@ impl RigParameters {
             ("Axis", servos),
         ];
         each.into_iter().flat_map(|(device, all)| all.into_iter().map(move |measure| (device, measure))).collect()
-    }
-
-    /// The same with each measure of a device larger by `share` of itself, one at a time.
-    pub fn with_each_larger(&self, device: &str, share: f64) -> Vec<RigParameters> {
-        let count = self.clone().measures().len();
-        let larger = |place: usize| {
-            let mut other = self.clone();
-            let mut all = other.measures();
-            let (of, measure) = &mut all[place];
-            let is_meant = *of == device;
-            **measure *= 1.0 + share;
-            is_meant.then_some(other)
-        };
-        (0..count).filter_map(larger).collect()
-    }
-
-    /// The same with the measures of a device larger by these shares of themselves, in their order.
-    pub fn with_larger(&self, device: &str, shares: &[f64]) -> RigParameters {
-        let mut other = self.clone();
-        let own = other.measures().into_iter().filter(|(of, _)| *of == device);
-        own.zip(shares).for_each(|((_, measure), share)| *measure *= 1.0 + share);
-        other
     }
 
     /// The plant with `quirks`; `seed` is that of what befalls its boxes.

@@ -1,6 +1,7 @@
 //! One device of a case alone: the others do not touch it, so that only what it draws of a common supply has to be known of them.
 
 use crate::chance::Dice;
+use crate::machine::{Machine, with_larger};
 use crate::plant::{Command, Signal};
 use crate::quirk::Quirk;
 use crate::record::{self, Surroundings};
@@ -51,16 +52,14 @@ impl Alone<'_> {
 
     /// How many of its measures are built to a tolerance.
     pub fn measures(&self) -> usize {
-        if self.share > 0.0 { self.built.with_each_larger(self.device, 0.0).len() } else { 0 }
+        if self.share > 0.0 { self.built.clone().measures(self.device).len() } else { 0 }
     }
 
     /// What is heard of it until `end`, with these effects and what is unknown so far off.
     pub fn hear(&self, quirks: &[Quirk], unknowns: &Unknowns, end: f64) -> Heard {
         let shares: Vec<f64> = unknowns.measures.iter().map(|off| off * self.share).collect();
-        let mut plant = self.built.with_larger(self.device, &shares).plant(quirks, self.seed);
-        plant.devices.retain(|(name, _)| name == self.device);
-        plant.signals.retain(|signal| signal.parts().0 == self.device);
-        plant.company.clone_from(&self.company);
+        let mut plant = with_larger(self.built, self.device, &shares).plant(quirks, self.seed);
+        plant.keep(self.device, self.company.clone());
         let filter = (self.around.filter + FILTER * unknowns.filter).max(0.0);
         let around = Surroundings { filter, ..self.around.clone() };
         // Its own stream: chance is another than in the recording, and of the same kind.

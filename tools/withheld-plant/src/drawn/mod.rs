@@ -15,7 +15,7 @@ use crate::quirk::Quirk;
 use crate::script::{Part, Program};
 use figures::KINDS;
 pub use sizes::fitted;
-pub use unit::{Figures, Unit};
+pub use unit::{Figures, Unit, measures};
 
 /// The fewest and the most devices of a plant.
 const FEWEST: usize = 3;
@@ -103,19 +103,21 @@ impl Machine for Drawn {
         program.sent(dice)
     }
 
-    fn with_each_larger(&self, device: &str, share: f64) -> Vec<Box<dyn Machine>> {
-        let Some(at) = self.units.iter().position(|unit| unit.name == device) else { return Vec::new() };
-        let larger = |place: usize| {
-            let mut other = self.clone();
-            *other.units[at].figures.measures()[place] *= 1.0 + share;
-            Box::new(other) as Box<dyn Machine>
-        };
-        let count = self.units[at].figures.clone().measures().len();
-        (0..count).map(larger).collect()
+    fn boxed(&self) -> Box<dyn Machine> {
+        Box::new(self.clone())
+    }
+
+    fn measures(&mut self, device: &str) -> Vec<&mut f64> {
+        measures(&mut self.units, device)
     }
 
     fn has(&self, device: &str) -> bool {
         self.host(device).is_some()
+    }
+
+    fn reporter<'a>(&'a self, device: &'a str) -> &'a str {
+        let feeds = |unit: &&Unit| matches!(&unit.figures, Figures::Belt { feed, .. } if feed == device);
+        self.units.iter().find(feeds).map_or(device, |unit| &unit.name)
     }
 
     fn kind(&self, device: &str) -> String {

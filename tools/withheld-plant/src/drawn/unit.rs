@@ -52,6 +52,12 @@ pub enum Figures {
     },
 }
 
+/// What of the device of this name is built to a tolerance.
+pub fn measures<'a>(units: &'a mut [Unit], device: &str) -> Vec<&'a mut f64> {
+    let unit = units.iter_mut().find(|unit| unit.name == device);
+    unit.map_or_else(Vec::new, |unit| unit.figures.measures())
+}
+
 impl Figures {
     /// What the rig calls a device of this kind.
     pub fn kind(&self) -> &'static str {

@@ -4,11 +4,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::floor::Floor;
 use crate::belt::BeltParameters;
-use crate::drive::Drive;
+use crate::belt_drive::BeltDrive;
 use crate::plant::Device;
 use crate::pusher::Pusher;
 use crate::quirk::Quirks;
-use crate::train::Train;
 
 /// What lies on the belts, for all devices.
 pub type Shared = Arc<Mutex<Floor>>;
@@ -21,64 +20,39 @@ fn floor(shared: &Shared) -> MutexGuard<'_, Floor> {
 #[derive(Debug)]
 pub struct LineBelt {
     at: usize,
-    drive: Drive,
-    train: Train,
-    shaft: f64,
-    target: f64,
-    direction: f64,
-    slower: f64,
-    supply: f64,
+    drive: BeltDrive,
     shared: Shared,
 }
 
 impl LineBelt {
     /// The belt at this place of the floor, at rest.
     pub fn new(parameters: &BeltParameters, quirks: Quirks<'_>, at: usize, shared: Shared) -> LineBelt {
-        LineBelt {
-            at,
-            drive: Drive::new(quirks.parameter("acceleration", parameters.acceleration), quirks),
-            train: Train::new(quirks),
-            shaft: 0.0,
-            target: 0.0,
-            direction: 0.0,
-            slower: quirks.value("load-dependent-speed", "coefficient").unwrap_or(0.0),
-            supply: 1.0 - quirks.value("supply-drop", "fraction").unwrap_or(0.0),
-            shared,
-        }
+        let drive = BeltDrive::new(quirks.parameter("acceleration", parameters.acceleration), quirks);
+        LineBelt { at, drive, shared }
     }
 }
 
 impl Device for LineBelt {
     fn command(&mut self, now: f64, port: &str, value: f64) {
-        match port {
-            "velocityTarget" => self.target = value,
-            "motorDirection" => self.direction = value,
-            _ => {}
-        }
-        self.drive.command(now, self.direction != 0.0, self.direction * self.target);
+        self.drive.command(now, port, value);
     }
 
     fn advance(&mut self, now: f64, span: f64, others: usize) {
         let mut floor = floor(&self.shared);
-        let load = if self.slower > 0.0 { floor.load(self.at) as f64 } else { 0.0 };
-        let share = (1.0 - self.slower * load).max(0.0) * self.supply.powi(others as i32);
-        self.shaft += self.drive.advance(now, span, share);
-        let way = self.train.advance(span, self.shaft, self.drive.speed());
+        let way = self.drive.advance(now, span, floor.load(self.at), others);
         let bed = &mut floor.beds[self.at];
         bed.way = way;
         bed.travel += way;
     }
 
     fn read(&self, _now: f64, values: &mut Vec<f64>) {
-        let speed = self.drive.speed();
-        let sign = if speed.abs() > 1e-3 { speed.signum() } else { 0.0 };
-        values.extend([speed, f64::from(self.direction != 0.0), f64::from(speed.abs() > 1e-3), sign]);
+        self.drive.read(values);
         let floor = floor(&self.shared);
         values.extend([0, 1].map(|barrier| f64::from(floor.is_cut(self.at, barrier))));
     }
 
     fn moves(&self) -> bool {
-        self.drive.speed().abs() > 1e-3
+        self.drive.moves()
     }
 }
 

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex};
 
 use crate::belt::BeltParameters;
 use crate::chance::Dice;
-use crate::drawn::{Figures, Unit, fitted};
+use crate::drawn::{Figures, Unit, fitted, measures};
 use crate::gripper::GripperParameters;
 use crate::machine::Machine;
 use crate::plant::{Command, Device, Kind, Plant};
@@ -190,15 +190,12 @@ impl Machine for Line {
         controller::take_through(&mut self.plant(quirks, seed), part, &mut Dice::new(seed, 8))
     }
 
-    fn with_each_larger(&self, device: &str, share: f64) -> Vec<Box<dyn Machine>> {
-        let Some(at) = self.units.iter().position(|unit| unit.name == device) else { return Vec::new() };
-        let larger = |place: usize| {
-            let mut other = self.clone();
-            *other.units[at].figures.measures()[place] *= 1.0 + share;
-            Box::new(other) as Box<dyn Machine>
-        };
-        let count = self.units[at].figures.clone().measures().len();
-        (0..count).map(larger).collect()
+    fn boxed(&self) -> Box<dyn Machine> {
+        Box::new(self.clone())
+    }
+
+    fn measures(&mut self, device: &str) -> Vec<&mut f64> {
+        measures(&mut self.units, device)
     }
 
     fn has(&self, device: &str) -> bool {

@@ -26,8 +26,8 @@ pub use error::SocketError;
 
 use kinetwin::trace::Sender;
 
-use crate::cases::Take;
 use crate::record::Said;
+use crate::workbench::Take;
 
 /// Which share of a reporting cycle a recording may be late: as much as the most that a report's stamp is.
 const ALLOWED: f64 = 0.4;

@@ -8,10 +8,12 @@ use std::thread;
 
 use super::{Lateness, SocketError, in_time, record};
 use crate::arguments::Pairs;
-use crate::cases::{Answer, Conditions, Plan, Sizes, Take, plans};
+use crate::cases::Answer;
 use crate::exam::{ExamError, answers};
+use crate::plans::{Plan, Sizes, plans};
 use crate::record::{Said, write_said};
 use crate::site::Sites;
+use crate::workbench::{Conditions, Take};
 
 /// The folder of what was recorded in simulated time, and of what was over a socket.
 const FOLDERS: [&str; 2] = ["simulated", "socket"];

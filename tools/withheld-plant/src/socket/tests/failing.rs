@@ -8,8 +8,8 @@ use kinetwin::wire::{Connect, Message};
 
 use super::take;
 use crate::arguments::Pairs;
-use crate::cases::{Sizes, plans};
 use crate::exam::ExamError;
+use crate::plans::{Sizes, plans};
 use crate::site::Sites;
 use crate::socket::clock::Lateness;
 use crate::socket::end::End;

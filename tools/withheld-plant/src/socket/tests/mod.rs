@@ -4,12 +4,12 @@ mod failing;
 mod links;
 mod recording;
 
-use crate::cases::Take;
 use crate::plant::Command;
 use crate::quirk::Quirk;
 use crate::record::{self, Surroundings};
 use crate::rig::RigParameters;
 use crate::script::Part;
+use crate::workbench::Take;
 
 /// A rig built to its figures, told `commands` and heard every 20 ms without noise.
 pub fn take(quirks: Vec<Quirk>, commands: &[(f64, &str, f64)]) -> Take {

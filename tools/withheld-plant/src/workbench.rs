@@ -1,0 +1,258 @@
+//! A machine that a case is tried on: built as one is, listened to as it happens, with something wrong or nothing.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use crate::catalogue::{Entry, Spot};
+use crate::chance::Dice;
+use crate::classes::{self, Alone};
+use crate::machine::{Machine, with_each_larger};
+use crate::magnitude::{Hidden, Magnitude, distance};
+use crate::plant::{Command, Plant, Signal};
+use crate::quirk::{Member, Quirk};
+use crate::record::{self, Seen, Surroundings};
+use crate::rig::RigParameters;
+use crate::script::Part;
+use crate::site::Design;
+
+/// The tolerance that the models declare.
+const TOLERANCE: f64 = 0.01;
+
+/// What is easier about practice than about an exam.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Conditions {
+    /// Reports of no age, tasks that take commands at once, unfiltered flags.
+    pub prompt: bool,
+    /// Machines built exactly to their figures.
+    pub exact: bool,
+    /// Answers without the classes of effects that cannot be told apart.
+    pub classless: bool,
+}
+
+impl Conditions {
+    /// The tolerance that the model declares.
+    pub fn tolerance(self) -> f64 {
+        if self.exact { 0.0 } else { TOLERANCE }
+    }
+}
+
+/// What a recording is made of: a machine that has not run yet, and what it is told.
+pub struct Take {
+    pub part: Part,
+    pub built: RigParameters,
+    pub quirks: Vec<Quirk>,
+    pub script: Vec<Command>,
+    pub around: Surroundings,
+    pub seed: u64,
+    pub model: &'static str,
+}
+
+impl Take {
+    /// The machine.
+    pub fn plant(&self) -> Plant {
+        self.built.plant(&self.quirks, self.seed)
+    }
+}
+
+/// A machine that has run, and what was seen of it.
+pub struct Run {
+    plant: Plant,
+    seen: Seen,
+}
+
+impl Run {
+    fn signals_of(&self, device: &str) -> Vec<Signal> {
+        self.plant.signals.iter().filter(|signal| signal.parts().0 == device).cloned().collect()
+    }
+
+    fn seen_of(&self, device: &str) -> Seen {
+        self.seen.of(device, &self.plant.signals)
+    }
+}
+
+/// A case that can be written.
+pub struct Bench {
+    pub design: Design,
+    built: Box<dyn Machine>,
+    pub around: Surroundings,
+    scripts: [Vec<Command>; 2],
+    seed: u64,
+    tolerance: f64,
+    /// By device, what its tolerances hide.
+    hidden: RefCell<BTreeMap<String, Rc<Hidden>>>,
+}
+
+impl Bench {
+    /// A machine that is built to `design`, and listened to, as `seed` has it.
+    pub fn new(design: Design, seed: u64, conditions: Conditions) -> Bench {
+        let mut dice = Dice::new(seed, 2);
+        let tolerance = conditions.tolerance();
+        let built = design.built(tolerance, &mut dice);
+        let around = Surroundings::draw(&mut dice);
+        let around = if conditions.prompt { around.prompt() } else { around };
+        let known = built.commands();
+        let scripts = [Part::Train, Part::HeldOut];
+        // What the devices of one plant do to each other depends on how it was built.
+        let told = if design.is_connected() { &*built } else { design.machine() };
+        let scripts =
+            scripts.map(|part| record::heard(&told.program(part, &[], seed ^ part as u64, &mut dice), &known));
+        Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default() }
+    }
+
+    /// What all chance of a recording follows from.
+    pub fn seed_of(&self, part: Part) -> u64 {
+        self.seed ^ part as u64
+    }
+
+    /// What is seen of it with nothing wrong.
+    pub fn healthy(&self) -> Run {
+        let (plant, seen) = self.watched(Part::Train, &[], &self.scripts[Part::Train as usize]);
+        Run { plant, seen }
+    }
+
+    fn watched(&self, part: Part, quirks: &[Quirk], script: &[Command]) -> (Plant, Seen) {
+        let seed = self.seed_of(part);
+        let mut plant = self.built.plant(quirks, seed);
+        let seen = record::watch(&mut plant, script, &self.around, part.seconds(), seed);
+        (plant, seen)
+    }
+
+    /// What one device of `built` reports in the training recording while it has `quirks`, told what it is told without them. Where no
+    /// device touches another, no other has to run.
+    fn of_device(&self, built: &dyn Machine, quirks: &[Quirk], device: &str, healthy: &Run) -> Seen {
+        let seed = self.seed_of(Part::Train);
+        let mut plant = built.plant(quirks, seed);
+        if !self.design.is_connected() {
+            plant.keep(device, healthy.plant.company_of(device));
+        }
+        let script = &self.scripts[Part::Train as usize];
+        let seen = record::watch(&mut plant, script, &self.around, Part::Train.seconds(), seed);
+        seen.of(device, &plant.signals)
+    }
+
+    /// What was told and seen while it had these effects: where devices touch each other, their automation answers to them.
+    pub fn recorded(&self, part: Part, quirks: &[Quirk]) -> (Vec<Command>, Plant, Seen) {
+        let seed = self.seed_of(part);
+        let script = match self.design.is_connected() {
+            true => {
+                let told = self.built.program(part, quirks, seed, &mut Dice::new(seed, 9));
+                record::heard(&told, &self.built.commands())
+            }
+            false => self.scripts[part as usize].clone(),
+        };
+        let (plant, seen) = self.watched(part, quirks, &script);
+        (script, plant, seen)
+    }
+
+    /// What a recording is made of; of another plant than the rig there is none, as its automation is no list of commands.
+    pub fn take(&self, part: Part, quirks: &[Quirk], model: &'static str) -> Option<Take> {
+        Some(Take {
+            part,
+            built: self.built.rig()?.clone(),
+            quirks: quirks.to_vec(),
+            script: self.scripts[part as usize].clone(),
+            around: self.around.clone(),
+            seed: self.seed_of(part),
+            model,
+        })
+    }
+
+    /// How far these effects carry the training recording from what it would be: what their devices report of it.
+    pub fn distance(&self, quirks: &[Quirk], healthy: &Run) -> f64 {
+        let machine = self.design.machine();
+        let devices: BTreeSet<&str> = quirks.iter().map(|quirk| machine.reporter(&quirk.device)).collect();
+        let squared = |device: &str| {
+            let signals = healthy.signals_of(device);
+            let seen = self.of_device(&*self.built, quirks, device, healthy);
+            let hidden = self.hidden(device, healthy);
+            distance(&seen, &healthy.seen_of(device), &signals, &self.around, &hidden).powi(2)
+        };
+        devices.into_iter().map(squared).sum::<f64>().sqrt()
+    }
+
+    /// What a device's tolerances hide: measured once.
+    fn hidden(&self, device: &str, healthy: &Run) -> Rc<Hidden> {
+        if let Some(known) = self.hidden.borrow().get(device) {
+            return known.clone();
+        }
+        // The standard deviation of what is drawn anywhere between two bounds.
+        let share = self.tolerance / 3.0_f64.sqrt();
+        let larger = if share > 0.0 { with_each_larger(&*self.built, device, share) } else { Vec::new() };
+        let moved: Vec<Seen> = larger.iter().map(|built| self.of_device(&**built, &[], device, healthy)).collect();
+        let base = healthy.seen_of(device);
+        let hidden = Rc::new(Hidden::new(&moved, &base, &healthy.signals_of(device), &self.around));
+        self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
+        hidden
+    }
+
+    /// What nobody can tell from `quirk` in the training recording; of another plant than the rig nothing is known of that.
+    pub fn class(&self, quirk: &Quirk) -> Vec<Member> {
+        let Some(built) = self.built.rig() else { return Vec::new() };
+        let device = built.reporter(&quirk.device);
+        let (plant, _) = self.watched(Part::Train, std::slice::from_ref(quirk), &self.scripts[Part::Train as usize]);
+        let script = &self.scripts[Part::Train as usize];
+        let own = |command: &&Command| command.signal.split_once('.').is_some_and(|(of, _)| of == device);
+        let alone = Alone {
+            built,
+            around: &self.around,
+            device,
+            script: script.iter().filter(own).cloned().collect(),
+            company: plant.company_of(device),
+            seed: self.seed_of(Part::Train),
+            share: self.tolerance / 3.0_f64.sqrt(),
+        };
+        classes::class(&alone, quirk, Part::Train.seconds())
+    }
+
+    /// The effect with the strength that shows as much as it is to.
+    pub fn quirk(
+        &self,
+        entry: &Entry,
+        spot: Spot,
+        magnitude: Magnitude,
+        healthy: &Run,
+        seed: u64,
+    ) -> Option<(Quirk, f64)> {
+        let (low, high) = magnitude.range();
+        let at = |strength: f64| {
+            let quirk = self.design.machine().fitted(entry.quirk(spot, strength, &mut Dice::new(seed, 3)));
+            let distance = self.distance(std::slice::from_ref(&quirk), healthy);
+            (quirk, distance)
+        };
+        if !entry.has_strength() {
+            return Some(at(1.0)).filter(|(_, distance)| *distance >= Magnitude::Clear.range().0);
+        }
+        let mut dice = Dice::new(seed, 4);
+        let shows = magnitude == Magnitude::Clear || magnitude == Magnitude::Gross;
+        let least = if shows { entry.tolerated.max(1e-6) } else { 1e-6 };
+        let (mut weak, mut strong) =
+            (least, if magnitude == Magnitude::Gross { dice.log_between(0.3, 1.0) } else { 1.0 });
+        let most = at(strong);
+        let goal = match magnitude {
+            Magnitude::Gross => return Some(most).filter(|(_, distance)| *distance >= low),
+            Magnitude::BelowNoise => dice.between(0.2, 1.0),
+            _ => dice.log_between(low, high),
+        };
+        if most.1 < goal {
+            return Some(most).filter(|(_, distance)| *distance >= low);
+        }
+        if shows && least > 1e-6 {
+            // What a tolerance would hide must be stronger than it, and then may show more.
+            let found = at(least);
+            if found.1 >= goal {
+                return Some(found);
+            }
+        }
+        // Bisection in the logarithm of the strength; how near it comes to its goal is chance.
+        for _ in 0..14 {
+            let middle = (weak * strong).sqrt();
+            let found = at(middle);
+            if (low..=high).contains(&found.1) && (found.1 / goal - 1.0).abs() < 0.15 {
+                return Some(found);
+            }
+            if found.1 < goal { weak = middle } else { strong = middle }
+        }
+        Some(at(strong)).filter(|(_, distance)| (low..=high).contains(distance))
+    }
+}
