@@ -186,9 +186,12 @@ impl Bench {
         hidden
     }
 
-    /// What nobody can tell from `quirk` in the training recording; of another plant than the rig nothing is known of that.
+    /// What nobody can tell from `quirk` in the training recording; where devices touch each other nothing is known of that.
     pub fn class(&self, quirk: &Quirk) -> Vec<Member> {
-        let Some(built) = self.built.rig() else { return Vec::new() };
+        if self.design.is_connected() {
+            return Vec::new();
+        }
+        let built = &*self.built;
         let device = built.reporter(&quirk.device);
         let (plant, _) = self.watched(Part::Train, std::slice::from_ref(quirk), &self.scripts[Part::Train as usize]);
         let script = &self.scripts[Part::Train as usize];

@@ -5,12 +5,11 @@ use crate::machine::{Machine, with_larger};
 use crate::plant::{Command, Signal};
 use crate::quirk::Quirk;
 use crate::record::{self, Surroundings};
-use crate::rig::RigParameters;
 use crate::stream::Stream;
 
 /// A device under the commands of a case's training recording.
 pub struct Alone<'a> {
-    pub built: &'a RigParameters,
+    pub built: &'a dyn Machine,
     pub around: &'a Surroundings,
     /// Its name in the plant.
     pub device: &'a str,
@@ -52,7 +51,7 @@ impl Alone<'_> {
 
     /// How many of its measures are built to a tolerance.
     pub fn measures(&self) -> usize {
-        if self.share > 0.0 { self.built.clone().measures(self.device).len() } else { 0 }
+        if self.share > 0.0 { self.built.boxed().measures(self.device).len() } else { 0 }
     }
 
     /// What is heard of it until `end`, with these effects and what is unknown so far off.

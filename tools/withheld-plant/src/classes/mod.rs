@@ -51,13 +51,26 @@ pub fn class(device: &Alone<'_>, truth: &Quirk, end: f64) -> Vec<Member> {
     let measure = Measure::new(device, &device.signals());
     let look = Look::new(device, &measure, truth, end);
     let mut class = vec![truth.member()];
-    for candidate in candidate::candidates(truth, device.device, &device.signals()) {
-        let member = candidate.quirk.member();
+    for candidate in device.candidates(truth) {
+        let member = device.here(candidate.quirk.clone()).member();
         if !class.contains(&member) && look.distance(&candidate) <= SAME {
             class.push(member);
         }
     }
     once(class)
+}
+
+impl Alone<'_> {
+    /// All that could stand in the place of `truth`, in the words and to the scale of the rig's device of its kind.
+    fn candidates(&self, truth: &Quirk) -> Vec<Candidate> {
+        let as_rigs = Quirk { device: self.built.kind(&truth.device), ..truth.clone() };
+        candidate::candidates(&as_rigs, &self.built.kind(self.device), &self.signals())
+    }
+
+    /// What is said of the rig's device, of this one.
+    fn here(&self, quirk: Quirk) -> Quirk {
+        self.built.fitted(quirk)
+    }
 }
 
 /// A link as a whole and one of its signals are one effect at one place: the truth's own name of it stays, or the whole's.

@@ -78,7 +78,7 @@ impl<'a> Goal<'a> {
         let count = unknown.len().saturating_sub(1);
         let unknowns =
             Unknowns { measures: unknown[..count].to_vec(), filter: unknown.get(count).copied().unwrap_or(0.0) };
-        self.device.hear(&[candidate.at(own)], &unknowns, self.end)
+        self.device.hear(&[self.device.built.fitted(candidate.at(own))], &unknowns, self.end)
     }
 
     /// D² by the rule of the magnitudes, and what the unknown costs.

@@ -2,30 +2,36 @@ use super::candidate::{candidates, own};
 use super::*;
 use crate::bench::{axis_quirk, quirk};
 use crate::chance::Dice;
+use crate::machine::Machine;
 use crate::plant::Command;
 use crate::record::Surroundings;
 use crate::rig::RigParameters;
+use crate::site::Site;
 
 /// A device under these commands (s, port, value), heard every 10 ms by the table's figures.
 struct Rig {
-    built: RigParameters,
+    built: Box<dyn Machine>,
     around: Surroundings,
-    device: &'static str,
+    device: String,
     script: Vec<Command>,
 }
 
 impl Rig {
-    fn new(device: &'static str, script: &[(f64, &str, f64)]) -> Rig {
+    fn new(device: &str, script: &[(f64, &str, f64)]) -> Rig {
+        Rig::of(Box::new(RigParameters::nominal()), device, script)
+    }
+
+    fn of(built: Box<dyn Machine>, device: &str, script: &[(f64, &str, f64)]) -> Rig {
         let drawn = Surroundings::draw(&mut Dice::new(1, 2)).prompt();
         let around = Surroundings { cycle: 0.01, phase: 0.004, noise: 1.0, noise_time: 3e-3, ..drawn };
         let said = |&(at, port, value): &(f64, &str, f64)| Command { at, signal: format!("{device}.{port}"), value };
-        Rig { built: RigParameters::nominal(), around, device, script: script.iter().map(said).collect() }
+        Rig { built, around, device: device.to_owned(), script: script.iter().map(said).collect() }
     }
 
     fn alone(&self) -> Alone<'_> {
         let Rig { built, around, device, script } = self;
         Alone {
-            built,
+            built: &**built,
             around,
             device,
             script: script.clone(),
@@ -35,8 +41,12 @@ impl Rig {
         }
     }
 
-    /// Grips of several lengths, blown off and not.
     fn gripper() -> Rig {
+        Rig::new("Gripper", &Rig::grips())
+    }
+
+    /// Grips of several lengths, blown off and not.
+    fn grips() -> Vec<(f64, &'static str, f64)> {
         let mut script = Vec::new();
         for k in 0..12 {
             let at = 0.1 + 0.5 * f64::from(k) + 0.013 * f64::from(k % 5);
@@ -45,7 +55,7 @@ impl Rig {
                 script.extend([(at + 0.3, "blowOn", 1.0), (at + 0.4, "blowOn", 0.0)]);
             }
         }
-        Rig::new("Gripper", &script)
+        script
     }
 
     /// Starts, stops and several speeds.
@@ -72,11 +82,7 @@ impl Rig {
         let (device, signals) = (self.alone(), self.alone().signals());
         let measure = Measure::new(&device, &signals);
         let look = Look::new(&device, &measure, truth, end);
-        let all = if other == truth.effect {
-            own(truth, self.device, &signals)
-        } else {
-            candidates(truth, self.device, &signals)
-        };
+        let all = if other == truth.effect { own(truth, &self.device, &signals) } else { device.candidates(truth) };
         let meant = all.iter().filter(|candidate| candidate.quirk.effect == other);
         meant.map(|candidate| look.distance(candidate)).fold(f64::INFINITY, f64::min)
     }
@@ -107,6 +113,30 @@ fn what_takes_longer_to_build_up_may_as_well_be_seen_late() {
     let others = ["on-delay at sensor", "parameter-error at any", "switch-on-delay at actuator"];
     assert!(others.iter().all(|other| class.contains(&(*other).to_owned())), "{class:?}");
     assert!(!class.iter().any(|member| member.starts_with("dead-time") || member.starts_with("off-")), "{class:?}");
+}
+
+#[test]
+fn a_drawn_plants_classes_are_in_its_own_names_and_to_its_own_scale() {
+    let plant = Site::Drawn.design(&["Gripper", "Axis"], 3);
+    let slow = at("process", quirk("Gripper", "vacuum-build-up", &[("time", 0.04)]));
+    let slow = plant.machine().fitted(slow);
+    assert_ne!(slow.device, "Gripper");
+    let rig = Rig::of(plant.machine().boxed(), &slow.device, &Rig::grips());
+    let class = class(&rig.alone(), &slow, 6.0);
+    assert!(class.iter().any(|member| member.effect == "on-delay") && class[0].effect == "vacuum-build-up");
+    assert!(class.iter().all(|member| member.device == slow.device), "{class:?}");
+    // A wrong gain of another axis than the rig's, and found again.
+    let wrong = at("any", quirk("Axis", "parameter-error", &[("value", 30.0)]));
+    let wrong = plant.machine().fitted(Quirk { component: Some("positionGain".to_owned()), ..wrong });
+    let moves: Vec<_> =
+        (0..20).map(|k| (0.1 + 0.1 * f64::from(k), "positionTarget", 0.01 * f64::from(k % 3))).collect();
+    let axis = Rig::of(plant.machine().boxed(), &wrong.device, &moves);
+    let (device, signals) = (axis.alone(), axis.alone().signals());
+    let measure = Measure::new(&device, &signals);
+    let look = Look::new(&device, &measure, &wrong, 2.0);
+    let as_rigs = Quirk { device: "Axis".to_owned(), ..wrong.clone() };
+    let own = own(&as_rigs, "Axis", &signals);
+    assert!(own.iter().any(|candidate| look.distance(candidate) <= SAME));
 }
 
 #[test]

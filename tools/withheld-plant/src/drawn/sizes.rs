@@ -186,8 +186,14 @@ fn nominal(figures: &Figures, name: &str) -> f64 {
         (Figures::Pusher(parameters), "stroke") => parameters.stroke,
         (Figures::Pusher(parameters), "extendSpeed") => parameters.extend_speed,
         (Figures::Pusher(parameters), "retractSpeed") => parameters.retract_speed,
-        (Figures::Robot { parameters, .. }, "maxVelocityX") => parameters.fastest[0],
-        (Figures::Robot { parameters, .. }, "maxAccelerationR") => parameters.steepest[3],
+        (Figures::Robot { parameters, .. }, name) => {
+            let limits = [("maxVelocity", &parameters.fastest), ("maxAcceleration", &parameters.steepest)];
+            let of = |(limit, all): (&str, &[f64; 4])| {
+                let axis = name.strip_prefix(limit)?;
+                AXES.iter().position(|one| *one == axis).map(|at| all[at])
+            };
+            limits.into_iter().find_map(of).unwrap_or(1.0)
+        }
         (Figures::Gripper(parameters), "buildUpTime") => parameters.build_up,
         (Figures::Gripper(parameters), "releaseTime") => parameters.release,
         (Figures::Servo { parameters, .. }, "Fv") => parameters.viscous,
