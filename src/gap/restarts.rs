@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
-use super::statistics::quantile;
+use super::statistics::{quantile, span};
 use super::subject::Subject;
 use super::track::Track;
 use crate::device::path::Motion;
@@ -27,6 +27,8 @@ pub const WINDOW_S: f64 = 1.0;
 const ABOUT: usize = 3;
 /// What the device is displaced by to see whether it remembers, as a share of what it travels.
 const DISPLACED: f64 = 0.01;
+/// How many times as far as the model a machine may go, and what is reported be where it is: less than units differ by.
+const FURTHEST: f64 = 8.0;
 /// What is left of that at some time of this span, as a share, where it does; s.
 const REMEMBERED: f64 = 0.37;
 const AFTER_S: [f64; 2] = [0.1, 0.3];
@@ -57,7 +59,7 @@ impl Subject {
     /// longer than a drive with a speed loop would. Whether it does.
     pub(super) fn take_up_again(&mut self) -> Result<bool, EffectError> {
         let Some(signal) = self.position_signal() else { return Ok(false) };
-        if !self.can_be_shifted()? {
+        if !self.can_be_shifted()? || !self.is_a_place(signal)? {
             return Ok(false);
         }
         self.restart_at(signal, WINDOW_S);
@@ -140,15 +142,23 @@ impl Subject {
         }
     }
 
+    /// Whether what was recorded can be where the device is: not what is read in another unit than it was sent in, which no loop could
+    /// begin at.
+    fn is_a_place(&self, signal: usize) -> Result<bool, EffectError> {
+        let predicted = self.predict(&[], &Overrides::none())?;
+        let pairs = self.runs.iter().zip(&predicted.runs).filter_map(|(run, predicted)| {
+            let Predicted::Level(model) = &predicted[signal] else { return None };
+            Some((span(&run.tracks[signal].as_ref()?.values), span(model)))
+        });
+        Ok(pairs.into_iter().all(|(recorded, model)| model == 0.0 || recorded < FURTHEST * model))
+    }
+
     /// Whether more than a share of a displacement at the start of a window is still there after a while, in most windows.
     fn remembers(&self, signal: usize) -> Result<bool, EffectError> {
         let mut displaced = self.clone();
         let mut by = Vec::new();
         for run in &mut displaced.runs {
-            let values = run.tracks[signal].as_ref().map_or(&[][..], |track| &track.values);
-            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-            let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let step = (DISPLACED * (most - least)).max(0.0);
+            let step = DISPLACED * run.tracks[signal].as_ref().map_or(0.0, |track| span(&track.values));
             if let Some(restarts) = &mut run.restarts {
                 Arc::make_mut(restarts).each.iter_mut().for_each(|restart| restart.position += step);
             }

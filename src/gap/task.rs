@@ -3,8 +3,8 @@
 //!
 //! A PLC runs its task every so often, with a phase that nobody wrote down; a drive answers a bus cycle later; every input passes
 //! the same filter. All of that is the recording's, not a device's. It is looked for once, before any device is, and only where
-//! several devices ask for the same: what one device alone is late by is its own gap. (Within one clock no offset of a device is
-//! ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
+//! several devices ask for the same, or the only one that can tell is explained by it to its floor: what is left of one device alone is
+//! its own gap. (Within one clock no other offset of a device is ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
 //! most [`MOST_FILTER_S`](super::filter::MOST_FILTER_S).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
@@ -40,6 +40,9 @@ pub(super) const LEAST_SQUARE: f64 = 0.2;
 const OF_A_TASK: f64 = 12.0;
 /// How many devices have to ask for the same.
 pub(super) const LEAST_DEVICES: usize = 2;
+/// Where only one asks for it because no other can tell, the mean square in floors that it may leave: all of its gap, then, is what
+/// every machine has, and no effect of its own need be found.
+const EXPLAINED: f64 = 1.2;
 /// How much nearer each of them must come, in deviance.
 pub(super) const NEARER: f64 = 4.0;
 
@@ -72,7 +75,7 @@ impl Task {
 /// as much as its noise lets it tell. So a device with a gap of its own, whose squares are large whatever the task, has a small say.
 pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Task>, EffectError> {
     let mut voters = voters(subjects, run)?;
-    if voters.len() < LEAST_DEVICES {
+    if voters.is_empty() {
         return Ok(None);
     }
     voters.par_iter_mut().try_for_each(|voter| voter.centre(Task::default()))?;
@@ -83,7 +86,12 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
     best = best.nearby(&voters)?;
     let nearer = before.iter().zip(&best.costs).filter(|(before, after)| *before - *after > NEARER).count();
     let gain = before.iter().sum::<f64>() - best.cost;
-    Ok((nearer >= LEAST_DEVICES && gain > THRESHOLD).then_some(best.task))
+    let is_whole = |(voter, (before, after)): (&Voter, (&f64, &f64))| {
+        before - after > NEARER && voter.mean_square_at(*after) < EXPLAINED
+    };
+    let is_explained = || voters.iter().zip(before.iter().zip(&best.costs)).any(is_whole);
+    let is_common = nearer >= LEAST_DEVICES || nearer == 1 && is_explained();
+    Ok((is_common && gain > THRESHOLD).then_some(best.task))
 }
 
 /// `known` with its phase as this run has it, which began at another instant: the likeliest as in [`find`].
@@ -294,6 +302,11 @@ impl Voter {
         };
         let (rest, slopes): (Vec<f64>, Vec<f64>) = self.kept.iter().map(of).unzip();
         (DVector::from_vec(rest), DVector::from_vec(slopes))
+    }
+
+    /// The mean square that [`Moments::cost`] came from.
+    fn mean_square_at(&self, cost: f64) -> f64 {
+        if self.count > 0.0 { (cost / self.count).exp() - LEAST_SQUARE } else { f64::INFINITY }
     }
 
     /// What is left under a task, or as the run has it.

@@ -1,5 +1,6 @@
 //! How large things are on a device: what a parameter is measured against before anything is known of it.
 
+use crate::gap::statistics::span;
 use crate::gap::{Predicted, Prediction, Subject};
 use crate::plant::ParameterValue;
 use crate::prototype::kind::PortDescriptor;
@@ -99,13 +100,6 @@ fn largest_number(subject: &Subject, ending: &str) -> f64 {
 /// The largest magnitude.
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().map(|value| value.abs()).fold(0.0, f64::max)
-}
-
-/// From the least to the greatest.
-pub fn span(values: &[f64]) -> f64 {
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    (greatest - least).max(0.0)
 }
 
 /// From each value to the next, for each second.

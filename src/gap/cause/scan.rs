@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use super::starts::Clues;
 use crate::gap::Predicted;
+use crate::gap::statistics::span;
 use crate::value::Quantity;
 
 /// A wave along the way: amplitude·sin(2π·x/period + phase).
@@ -31,7 +32,7 @@ const MOST_SAMPLES: usize = 4000;
 /// the force, either way of motion taken as the same.
 pub fn periods(clues: &Clues<'_>, friction: bool, count: usize) -> Vec<Wave> {
     let (way, error) = error_along(clues, friction);
-    let travel = super::scales::span(&way);
+    let travel = span(&way);
     if way.len() < 20 || travel <= 0.0 {
         return Vec::new();
     }

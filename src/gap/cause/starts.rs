@@ -9,7 +9,7 @@ use super::scales::Scales;
 use super::scan;
 use crate::effect::EffectParameter;
 use crate::gap::fit::Range;
-use crate::gap::statistics::quantile;
+use crate::gap::statistics::{quantile, span};
 use crate::gap::{Prediction, Score, Subject};
 use crate::prototype::kind::PortType;
 use crate::value::Quantity;
@@ -204,7 +204,7 @@ fn signal_scale(clues: &Clues<'_>) -> f64 {
         if clues.component.is_none_or(|component| component == info.property) {
             let tracks = clues.subject.runs.iter().filter_map(|run| run.tracks[signal].as_ref());
             scale = tracks
-                .map(|track| super::scales::span(&track.values))
+                .map(|track| span(&track.values))
                 .filter(|span| span.is_finite())
                 .fold(scale, f64::max);
         }

@@ -66,6 +66,13 @@ pub fn quantile(values: &[f64], share: f64) -> f64 {
     below + (above - below) * place.fract()
 }
 
+/// From the least to the greatest; 0 of nothing.
+pub fn span(values: &[f64]) -> f64 {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    (greatest - least).max(0.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,7 +5,7 @@ mod correlation;
 mod dependence;
 mod threshold;
 
-pub use blocks::{Draws, quantile};
+pub use blocks::{Draws, quantile, span};
 pub use correlation::{effective_number, inflation, lag_one};
 pub use dependence::{binned_share, rank_correlation};
 pub use threshold::{SAME_CLASS, least_gain};

@@ -28,7 +28,8 @@ pub struct RobotParameters {
 #[derive(Clone, Debug)]
 pub struct Robot {
     axes: [Axis; 4],
-    arrived: Delay,
+    /// When each axis counts as arrived.
+    arrived: [Delay; 4],
     /// A share of X's way that Y makes as well.
     crosstalk: f64,
 }
@@ -78,8 +79,11 @@ impl Robot {
                 train: Train::new(own),
             }
         };
-        let mut arrived = Delay::new(all.value("settling-time", "time").unwrap_or(0.0), 0.0);
-        arrived.set(f64::NEG_INFINITY, true);
+        let arrived = AXES.map(|name| {
+            let mut arrived = Delay::new(all.on(name).value("settling-time", "time").unwrap_or(0.0), 0.0);
+            arrived.set(f64::NEG_INFINITY, true);
+            arrived
+        });
         Robot {
             axes: std::array::from_fn(axis),
             arrived,
@@ -97,13 +101,12 @@ impl Device for Robot {
 
     fn advance(&mut self, now: f64, span: f64, _others: usize) {
         self.axes.iter_mut().for_each(|axis| axis.advance(span));
-        let there = self.axes.iter().all(Axis::has_arrived);
-        self.arrived.set(now, there);
+        self.arrived.iter_mut().zip(&self.axes).for_each(|(arrived, axis)| arrived.set(now, axis.has_arrived()));
     }
 
     fn read(&self, now: f64, values: &mut Vec<f64>) {
-        let there = self.axes.iter().all(Axis::has_arrived);
-        values.push(f64::from(there && self.arrived.at(now)));
+        let mut each = self.axes.iter().zip(&self.arrived);
+        values.push(f64::from(each.all(|(axis, arrived)| axis.has_arrived() && arrived.at(now))));
         let [x, y, z, r] = [0, 1, 2, 3].map(|at| self.axes[at].train.load());
         values.extend([x, y + self.crosstalk * x, z, r]);
     }
