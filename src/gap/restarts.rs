@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
 use super::statistics::{quantile, span};
-use super::subject::Subject;
+use super::subject::{Run, Subject};
 use super::track::Track;
 use crate::device::path::Motion;
 use crate::effect::EffectError;
@@ -27,8 +27,6 @@ pub const WINDOW_S: f64 = 1.0;
 const ABOUT: usize = 3;
 /// What the device is displaced by to see whether it remembers, as a share of what it travels.
 const DISPLACED: f64 = 0.01;
-/// How many times as far as the model a machine may go, and what is reported be where it is: less than units differ by.
-const FURTHEST: f64 = 8.0;
 /// What is left of that at some time of this span, as a share, where it does; s.
 const REMEMBERED: f64 = 0.37;
 const AFTER_S: [f64; 2] = [0.1, 0.3];
@@ -59,11 +57,13 @@ impl Subject {
     /// longer than a drive with a speed loop would. Whether it does.
     pub(super) fn take_up_again(&mut self) -> Result<bool, EffectError> {
         let Some(signal) = self.position_signal() else { return Ok(false) };
-        if !self.can_be_shifted()? || !self.is_a_place(signal)? {
+        if !self.can_be_shifted()? || !self.remembers_its_own(signal)? {
             return Ok(false);
         }
         self.restart_at(signal, WINDOW_S);
-        let remembers = self.remembers(signal)?;
+        let values = |run: &Run| run.tracks[signal].as_ref().map_or(0.0, |track| span(&track.values));
+        let travels: Vec<f64> = self.runs.iter().map(values).collect();
+        let remembers = self.remembers(signal, &travels)?;
         if !remembers {
             self.runs.iter_mut().for_each(|run| run.restarts = None);
         }
@@ -135,30 +135,41 @@ impl Subject {
     }
 
     fn restart_at(&mut self, signal: usize, every: f64) {
-        let (position, velocity) = (self.signals[signal].port, self.kind.port("velocity").unwrap_or_default());
+        let (position, velocity) = self.ports_of(signal);
         for run in &mut self.runs {
-            let each = run.tracks[signal].as_ref().map(|track| restarts(track, every));
+            let each = run.tracks[signal].as_ref().map(|track| restarts(track, &track.values, every));
             run.restarts = each.map(|each| Arc::new(Restarts { position, velocity, each }));
         }
     }
 
-    /// Whether what was recorded can be where the device is: not what is read in another unit than it was sent in, which no loop could
-    /// begin at.
-    fn is_a_place(&self, signal: usize) -> Result<bool, EffectError> {
+    /// Whether it remembers displacements on the way that the model goes by itself: what is read in another unit than it was sent in, or with
+    /// the other sign, is no place that a drive ever was at, and from there it would take long.
+    fn remembers_its_own(&self, signal: usize) -> Result<bool, EffectError> {
+        let mut own = self.clone();
         let predicted = self.predict(&[], &Overrides::none())?;
-        let pairs = self.runs.iter().zip(&predicted.runs).filter_map(|(run, predicted)| {
-            let Predicted::Level(model) = &predicted[signal] else { return None };
-            Some((span(&run.tracks[signal].as_ref()?.values), span(model)))
-        });
-        Ok(pairs.into_iter().all(|(recorded, model)| model == 0.0 || recorded < FURTHEST * model))
+        let (position, velocity) = self.ports_of(signal);
+        let mut travels = Vec::new();
+        for (run, predicted) in own.runs.iter_mut().zip(&predicted.runs) {
+            let values = if let Predicted::Level(values) = &predicted[signal] { values.as_slice() } else { &[] };
+            let each = run.tracks[signal].as_ref().map(|track| restarts(track, values, WINDOW_S));
+            run.restarts = each.map(|each| Arc::new(Restarts { position, velocity, each }));
+            travels.push(span(values));
+        }
+        // What the model does not move says nothing.
+        Ok(travels.iter().all(|travel| *travel <= 0.0) || own.remembers(signal, &travels)?)
     }
 
-    /// Whether more than a share of a displacement at the start of a window is still there after a while, in most windows.
-    fn remembers(&self, signal: usize) -> Result<bool, EffectError> {
+    fn ports_of(&self, signal: usize) -> (usize, usize) {
+        (self.signals[signal].port, self.kind.port("velocity").unwrap_or_default())
+    }
+
+    /// Whether more than a share of a displacement at the start of a window is still there after a while, in most windows; by run, how
+    /// far the device `travels`.
+    fn remembers(&self, signal: usize, travels: &[f64]) -> Result<bool, EffectError> {
         let mut displaced = self.clone();
         let mut by = Vec::new();
-        for run in &mut displaced.runs {
-            let step = DISPLACED * run.tracks[signal].as_ref().map_or(0.0, |track| span(&track.values));
+        for (run, travels) in displaced.runs.iter_mut().zip(travels) {
+            let step = DISPLACED * travels;
             if let Some(restarts) = &mut run.restarts {
                 Arc::make_mut(restarts).each.iter_mut().for_each(|restart| restart.position += step);
             }
@@ -186,16 +197,16 @@ impl Subject {
     }
 }
 
-/// Where the machine was at the first sample of every span of `every` seconds.
-fn restarts(track: &Track, every: f64) -> Vec<Restart> {
+/// Where something was at the first sample of every span of `every` seconds, by its positions at the instants of `track`.
+fn restarts(track: &Track, values: &[f64], every: f64) -> Vec<Restart> {
     let instants = &track.grid.instants[track.first..];
     let (Some(first), Some(last)) = (instants.first(), instants.last()) else { return Vec::new() };
     let windows = ((last - first) / every).floor() as usize;
     let starts = (0..=windows).map(|window| first + window as f64 * every);
     let mut restarts: Vec<Restart> = starts
         .map(|start| instants.partition_point(|at| *at < start - 1e-9))
-        .filter(|k| *k < track.values.len().min(instants.len()))
-        .map(|k| restart(instants, &track.values, k))
+        .filter(|k| *k < values.len().min(instants.len()))
+        .map(|k| restart(instants, values, k))
         .collect();
     restarts.dedup_by(|a, b| a.at == b.at);
     restarts

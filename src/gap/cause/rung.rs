@@ -405,10 +405,22 @@ impl Looks<'_> {
         self.trial_at(glance, &glance.at)
     }
 
+    /// With the nuisances at their nominal values: of an effect without a parameter, which leaves next to nothing or nearly everything, so
+    /// that nuisances fitted to the machine without it say nothing.
+    fn afresh(&self, glance: &Glance) -> Option<Vec<f64>> {
+        let is_first = glance.candidate.free.is_empty() && self.below.set.is_empty();
+        is_first.then(|| self.bench.nominal(&glance.set))
+    }
+
+    fn cheapest(&self, places: impl Iterator<Item = Vec<f64>>, glance: &Glance) -> Option<Trial> {
+        let trials = places.filter_map(|at| self.bench.trial(&glance.set, at));
+        trials.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    }
+
     /// With the nuisances as they follow, or where they are held, whichever costs less.
     fn trial_at(&self, glance: &Glance, at: &[f64]) -> Option<Trial> {
         let held = self.all(glance, at);
-        let there = self.bench.trial(&glance.set, held.clone())?;
+        let there = self.cheapest([held.clone()].into_iter().chain(self.afresh(glance)), glance)?;
         let followed = glance.beside.follow(&self.bench.residuals(&glance.set, &held)?);
         if followed == glance.beside.carried {
             return Some(there);
