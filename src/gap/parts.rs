@@ -35,6 +35,8 @@ const GATE: f64 = 0.08;
 const LENGTH_GATE: f64 = 0.25;
 /// And how far, m, where the part's other cut fits.
 const LENGTH_GATE_M: f64 = 0.1;
+/// Within how much of the belt's way a part passes a beam that it has passed before, m: less than two parts are apart.
+const PASSES_M: f64 = 0.05;
 /// Which share of the parts of one barrier must reach the other for one that does not to be missed.
 const RELIABLE: f64 = 0.8;
 /// How far a part may be from where its first edge says, m.
@@ -182,7 +184,12 @@ fn link(geometry: &Geometry, seen: &[Seen], factor: f64) -> Vec<Option<usize>> {
         let nearest = (at + 1..seen.len())
             .filter(|&other| !is_taken[other] && comes(&seen[other]))
             .min_by(|a, b| (seen[*a].start - expected).abs().total_cmp(&(seen[*b].start - expected).abs()));
-        if let Some(other) = nearest {
+        // On a belt that turns a part passes a beam several times at the same way: the first time it comes from the beam before.
+        let first_time = nearest.map(|nearest| {
+            let is_there = |cut: &Seen| comes(cut) && (cut.start - seen[nearest].start).abs() < PASSES_M;
+            (at + 1..nearest).find(|&other| !is_taken[other] && is_there(&seen[other])).unwrap_or(nearest)
+        });
+        if let Some(other) = first_time {
             (links[at], is_taken[other]) = (Some(other), true);
         }
     }
@@ -416,6 +423,11 @@ mod tests {
 
     /// A belt of the rig's that always runs at 0.5 m/s.
     fn of_rig(a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
+        of_rig_that(&|at| 0.5 * at, a, b)
+    }
+
+    /// The same that goes this way.
+    fn of_rig_that(travel: &dyn Fn(f64) -> f64, a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
         let geometry = Geometry {
             beams: [Some(0.3), Some(1.7)],
             lengths: vec![0.3],
@@ -423,7 +435,7 @@ mod tests {
             lane: Arc::default(),
             hands: Default::default(),
         };
-        assign(&geometry, [Some(&barrier(a)), Some(&barrier(b))], &|at| 0.5 * at)
+        assign(&geometry, [Some(&barrier(a)), Some(&barrier(b))], travel)
     }
 
     #[test]
@@ -435,6 +447,19 @@ mod tests {
         let ways: Vec<f64> = script.cuts.iter().map(|cut| cut.ahead).collect();
         assert!(ways.iter().all(|way| *way == 0.0 || (*way - 1.4).abs() < 1e-9), "{ways:?}");
         assert!(script.cuts.iter().all(|cut| cut.length == 0.3 && cut.taken.is_none()));
+    }
+
+    #[test]
+    fn a_part_that_passes_a_barrier_again_came_there_the_first_time() {
+        // To and fro at 0.5 m/s: it turns at 4.5 s and at 5.4 s. The first time barrier B sees it 10 mm late.
+        let travel = |at: f64| match at {
+            at if at < 4.5 => 0.5 * at,
+            at if at < 5.4 => 2.25 - 0.5 * (at - 4.5),
+            at => 1.8 + 0.5 * (at - 5.4),
+        };
+        let (_, origins) = of_rig_that(&travel, &[(1.01, 1.61)], &[(3.83, 4.41), (4.59, 5.19), (5.61, 6.21)]);
+        assert_eq!(origins[0], [Origin::Part(0); 2]);
+        assert_eq!(origins[1], [0, 0, 1, 1, 2, 2].map(Origin::Part));
     }
 
     #[test]
