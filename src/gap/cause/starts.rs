@@ -203,10 +203,7 @@ fn signal_scale(clues: &Clues<'_>) -> f64 {
     for (signal, info) in clues.subject.signals.iter().enumerate() {
         if clues.component.is_none_or(|component| component == info.property) {
             let tracks = clues.subject.runs.iter().filter_map(|run| run.tracks[signal].as_ref());
-            scale = tracks
-                .map(|track| span(&track.values))
-                .filter(|span| span.is_finite())
-                .fold(scale, f64::max);
+            scale = tracks.map(|track| span(&track.values)).filter(|span| span.is_finite()).fold(scale, f64::max);
         }
     }
     if scale > 0.0 { scale } else { clues.scales.travel }
