@@ -3,7 +3,7 @@
 //!
 //! A PLC runs its task every so often, with a phase that nobody wrote down; a drive answers a bus cycle later; every input passes
 //! the same filter. All of that is the recording's, not a device's. It is looked for once, before any device is, and only where
-//! several devices ask for the same, or the only one that can tell is explained by it to its floor: what is left of one device alone is
+//! several devices ask for the same, or the only one of several at work that can tell is explained by it to its floor: what is left of one device alone is
 //! its own gap. (Within one clock no other offset of a device is ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
 //! most [`MOST_FILTER_S`](super::filter::MOST_FILTER_S).
 
@@ -40,8 +40,8 @@ pub(super) const LEAST_SQUARE: f64 = 0.2;
 const OF_A_TASK: f64 = 12.0;
 /// How many devices have to ask for the same.
 pub(super) const LEAST_DEVICES: usize = 2;
-/// Where only one asks for it because no other can tell, the mean square in floors that it may leave: all of its gap, then, is what
-/// every machine has, and no effect of its own need be found.
+/// Where only one asks for it because no other at work can tell, the mean square in floors that it may leave: all of its gap, then, is
+/// what every machine has, and no effect of its own need be found.
 const EXPLAINED: f64 = 1.2;
 /// How much nearer each of them must come, in deviance.
 pub(super) const NEARER: f64 = 4.0;
@@ -90,7 +90,11 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
         before - after > NEARER && voter.mean_square_at(*after) < EXPLAINED
     };
     let is_explained = || voters.iter().zip(before.iter().zip(&best.costs)).any(is_whole);
-    let is_common = nearer >= LEAST_DEVICES || nearer == 1 && is_explained();
+    // Where nothing else was at work, it is that device that was looked at.
+    let is_at_work =
+        |subject: &&Subject| subject.runs[run].tracks.iter().flatten().any(|track| !track.edges.is_empty());
+    let are_others = || subjects.iter().filter(is_at_work).count() >= LEAST_DEVICES;
+    let is_common = nearer >= LEAST_DEVICES || nearer == 1 && are_others() && is_explained();
     Ok((is_common && gain > THRESHOLD).then_some(best.task))
 }
 
