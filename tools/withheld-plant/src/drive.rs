@@ -170,21 +170,37 @@ impl Follower {
                 (from + 0.5 * acceleration * span - behind) * span + apart * *time * (1.0 - keep)
             }
             Follower::Ring(frequency, damping, slope) => {
-                let (w, z) = (*frequency, *damping);
-                let pull = |t: f64, v: f64, a: f64| w * w * (from + acceleration * t - v) - 2.0 * z * w * a;
-                let steps = (span * w * 20.0).ceil().max(1.0);
-                let h = span / steps;
-                let mut way = 0.0;
-                for step in 0..steps as usize {
-                    let t = step as f64 * h;
-                    let before = *speed;
-                    rk4(t, h, speed, slope, &pull);
-                    way += 0.5 * (before + *speed) * h;
-                }
-                way
+                ring(*frequency, *damping, (from, acceleration), span, speed, slope)
             }
         }
     }
+}
+
+/// What swings after a line: x'' = w²·(from + slope·t − x) − 2·z·w·x' for `span`, in closed form, however fast it swings; gives ∫x dt.
+pub fn ring(w: f64, z: f64, (from, slope): (f64, f64), span: f64, x: &mut f64, v: &mut f64) -> f64 {
+    // It settles this far behind the line; what is apart from there swings and fades.
+    let behind = 2.0 * z * slope / w;
+    let (e0, s0) = (*x - from + behind, *v - slope);
+    let (d, spread) = (z * w, 1.0 - z * z);
+    let (e, s) = if spread.abs() < 1e-9 {
+        let keep = (-d * span).exp();
+        (keep * (e0 + (s0 + d * e0) * span), keep * (s0 - d * (s0 + d * e0) * span))
+    } else if spread > 0.0 {
+        let often = w * spread.sqrt();
+        let (keep, (sin, cos)) = ((-d * span).exp(), (often * span).sin_cos());
+        (keep * (e0 * cos + (s0 + d * e0) / often * sin), keep * (s0 * cos - (w * w * e0 + d * s0) / often * sin))
+    } else {
+        let apart = w * (-spread).sqrt();
+        // The slow one of two roots whose product is w², without a difference of nearly equal numbers.
+        let fast = -d - apart;
+        let slow = w * w / fast;
+        let of_slow = (s0 - fast * e0) / (slow - fast);
+        let (slowly, quickly) = (of_slow * (slow * span).exp(), (e0 - of_slow) * (fast * span).exp());
+        (slowly + quickly, slow * slowly + fast * quickly)
+    };
+    (*x, *v) = (from + slope * span - behind + e, slope + s);
+    // The swing's own equation says what its integral is.
+    (from + 0.5 * slope * span - behind) * span - ((s - s0) + 2.0 * d * (e - e0)) / (w * w)
 }
 
 /// One step of x' = v, v' = f(t, x, v) (Kutta 1901).
@@ -205,6 +221,31 @@ pub fn rk4(t: f64, h: f64, x: &mut f64, v: &mut f64, f: &dyn Fn(f64, f64, f64) -
 mod tests {
     use super::*;
     use crate::bench::quirk;
+
+    #[test]
+    fn what_rings_goes_as_its_equation_says() {
+        for z in [0.1, 1.0, 3.0] {
+            let (w, line) = (40.0, (0.3, 2.0));
+            let (mut x, mut v) = (0.5, -1.0);
+            let way = ring(w, z, line, 0.1, &mut x, &mut v);
+            let (mut y, mut u, mut sum) = (0.5, -1.0, 0.0);
+            let pull = |t: f64, y: f64, u: f64| w * w * (line.0 + line.1 * t - y) - 2.0 * z * w * u;
+            let h = 1e-5;
+            for k in 0..10_000 {
+                let before = y;
+                rk4(f64::from(k) * h, h, &mut y, &mut u, &pull);
+                sum += 0.5 * h * (before + y);
+            }
+            assert!(
+                (x - y).abs() < 1e-9 && (v - u).abs() < 1e-7 && (way - sum).abs() < 1e-8,
+                "{z}: {x} {y} {way} {sum}"
+            );
+        }
+        // Far faster than it is looked at, it is where the line is.
+        let (mut x, mut v) = (0.0, 0.0);
+        ring(1e9, 0.5, (1.0, 2.0), 1e-4, &mut x, &mut v);
+        assert!((x - 1.0002).abs() < 1e-7 && (v - 2.0).abs() < 1e-3);
+    }
 
     /// Way and speed after `seconds` from rest towards `reference` with the slope 2.
     fn runs(quirks: &[crate::quirk::Quirk], reference: f64, seconds: f64) -> (f64, f64) {

@@ -5,7 +5,7 @@
 
 use std::collections::VecDeque;
 
-use crate::drive::rk4;
+use crate::drive::ring;
 use crate::plant::Device;
 use crate::quirk::{Quirk, Quirks};
 use crate::switch::Delay;
@@ -225,12 +225,7 @@ impl Follower {
             }
             Follower::Ring { frequency, damping, from, at, speed } => {
                 if span > 0.0 {
-                    let (w, z, slope) = (*frequency, *damping, (to - *from) / span);
-                    let pull = |t: f64, x: f64, v: f64| w * w * (*from + slope * t - x) - 2.0 * z * w * v;
-                    let steps = (span * w * 20.0).ceil().max(1.0);
-                    for step in 0..steps as usize {
-                        rk4(step as f64 * span / steps, span / steps, at, speed, &pull);
-                    }
+                    ring(*frequency, *damping, (*from, (to - *from) / span), span, at, speed);
                     *from = to;
                 }
                 (*at, *speed)
