@@ -143,7 +143,7 @@ const GRIPPER: &[Spot] = &[("Gripper", "", 1.0)];
 const FEED: &[Spot] = &[("Feed", "", 1.0)];
 const PUSHER: &[Spot] = &[("Pusher", "", 1.0)];
 const MOTOR: &[Spot] = &[("Motor", "", 1.0)];
-const ROBOT_AXES: &[Spot] = &[("Robot", "X", 1.0), ("Robot", "R", 1.0)];
+const ROBOT_X: &[Spot] = &[("Robot", "X", 1.0)];
 const ROBOT: &[Spot] = &[("Robot", "", 1.0)];
 /// By their nominal values.
 const PARAMETERS: &[Spot] = &[
@@ -263,7 +263,7 @@ pub const ENTRIES: &[Entry] = &[
     entry("load-dependent-speed", ACTUATOR, BELT, &[Grows("coefficient", 0.3)]),
     entry("coasting", ACTUATOR, &[("Belt", "", 0.9), ("Motor", "", 18.0)], &[Below("deceleration", 0.8)]),
     entry("end-cushioning", ACTUATOR, PUSHER, &[Grows("length", 0.15), Within("ratio", 0.3, 0.6)]),
-    entry("settling-time", ACTUATOR, ROBOT_AXES, &[Grows("time", 0.3)]),
+    entry("settling-time", ACTUATOR, ROBOT_X, &[Grows("time", 0.3)]),
     entry("coulomb-friction", MECHANICS, AXIS, &[Grows("force", 60.0)]),
     tolerated(entry("viscous-friction", MECHANICS, AXIS, &[Grows("coefficient", 100.0)]), 0.05),
     entry("stribeck-friction", MECHANICS, AXIS, &[Grows("force", 60.0), Within("velocity", 0.02, 0.1)]),
