@@ -227,17 +227,23 @@ fn priorities(process: u32) -> Vec<(String, u32)> {
 #[cfg(target_os = "linux")]
 fn simulation_and_exchange_are_scheduled_in_real_time_or_the_run_says_why_not() {
     let mut run = Running::start(&["run", "rig", "--realtime"]);
-    // By then both threads have had work.
     run.line("stands");
-    let found = priorities(run.id());
-    let of = |name: &str| found.iter().find(|(thread, _)| thread == name).expect(name).1;
-    if run.said.iter().any(|line| line.contains("warning: the system refuses real-time scheduling")) {
-        assert_eq!((of("simulation"), of("io")), (0, 0));
-    } else {
-        assert_eq!((of("simulation"), of("io")), (20, 10));
-    }
+    // A thread has its name and its priority once it has run: on a busy system that takes its time.
+    let found = || {
+        let all = priorities(run.id());
+        ["simulation", "io"].map(|name| all.iter().find(|(thread, _)| thread == name).map(|(_, priority)| *priority))
+    };
+    let granted = [Some(20), Some(10)];
+    let is_granted = (0..200).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+        found() == granted
+    });
+    let last = found();
     run.interrupt();
-    assert_eq!(run.end().code(), 0);
+    let ended = run.end();
+    let is_refused = ended.stderr.contains("warning: the system refuses real-time scheduling");
+    assert!(if is_refused { last == [Some(0); 2] } else { is_granted }, "{last:?}: {}", ended.stderr);
+    assert_eq!(ended.code(), 0);
 }
 
 #[test]
