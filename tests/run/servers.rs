@@ -226,23 +226,20 @@ fn priorities(process: u32) -> Vec<(String, u32)> {
 #[test]
 #[cfg(target_os = "linux")]
 fn simulation_and_exchange_are_scheduled_in_real_time_or_the_run_says_why_not() {
-    let mut run = Running::start(&["run", "rig", "--realtime"]);
-    run.line("stands");
-    // A thread has its name and its priority once it has run: on a busy system that takes its time.
-    let found = || {
-        let all = priorities(run.id());
-        ["simulation", "io"].map(|name| all.iter().find(|(thread, _)| thread == name).map(|(_, priority)| *priority))
-    };
-    let granted = [Some(20), Some(10)];
-    let is_granted = (0..200).any(|_| {
-        std::thread::sleep(std::time::Duration::from_millis(10));
-        found() == granted
-    });
-    let last = found();
+    let host = Host::new();
+    let run = Running::start(&["run", "rig", "--realtime", "--connect", &host.url()]);
+    let (mut connection, _) = host.accept_session(200);
+    // A step of the simulation answers what the exchange has brought: both threads have had work.
+    connection.send_value("Robot.XTarget", json!(0.3));
+    while connection.receive_value("Robot.cartesianArrived") != false {}
+    let found = priorities(run.id());
+    let of = |name: &str| found.iter().find(|(thread, _)| thread == name).expect(name).1;
+    let scheduled = (of("simulation"), of("io"));
     run.interrupt();
+    connection.farewell();
     let ended = run.end();
     let is_refused = ended.stderr.contains("warning: the system refuses real-time scheduling");
-    assert!(if is_refused { last == [Some(0); 2] } else { is_granted }, "{last:?}: {}", ended.stderr);
+    assert_eq!(scheduled, if is_refused { (0, 0) } else { (20, 10) }, "{}", ended.stderr);
     assert_eq!(ended.code(), 0);
 }
 
