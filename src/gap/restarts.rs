@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector};
 use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
 use super::statistics::{quantile, span};
-use super::subject::{Run, Subject};
+use super::subject::Subject;
 use super::track::Track;
 use crate::device::path::Motion;
 use crate::effect::EffectError;
@@ -60,9 +60,7 @@ impl Subject {
         if !self.can_be_shifted()? || !self.remembers_its_own(signal)? {
             return Ok(false);
         }
-        self.restart_at(signal, WINDOW_S);
-        let values = |run: &Run| run.tracks[signal].as_ref().map_or(0.0, |track| span(&track.values));
-        let travels: Vec<f64> = self.runs.iter().map(values).collect();
+        let travels = self.restart_at(signal, None);
         let remembers = self.remembers(signal, &travels)?;
         if !remembers {
             self.runs.iter_mut().for_each(|run| run.restarts = None);
@@ -89,7 +87,7 @@ impl Subject {
     pub fn in_windows(&self) -> Subject {
         let mut windowed = self.clone();
         if let Some(signal) = self.position_signal() {
-            windowed.restart_at(signal, WINDOW_S);
+            windowed.restart_at(signal, None);
         }
         windowed
     }
@@ -134,33 +132,30 @@ impl Subject {
         Ok(has_speed && self.device(&[], &Overrides::none())?.shift(Motion::default()))
     }
 
-    fn restart_at(&mut self, signal: usize, every: f64) {
-        let (position, velocity) = self.ports_of(signal);
-        for run in &mut self.runs {
-            let each = run.tracks[signal].as_ref().map(|track| restarts(track, &track.values, every));
+    /// Has every window begin where the machine was, or where the device is on a `way` of the model's; by run, how far that travels.
+    fn restart_at(&mut self, signal: usize, way: Option<&Prediction>) -> Vec<f64> {
+        let (position, velocity) = (self.signals[signal].port, self.kind.port("velocity").unwrap_or_default());
+        let mut travels = Vec::with_capacity(self.runs.len());
+        for (at, run) in self.runs.iter_mut().enumerate() {
+            let values = match (way.map(|way| &way.runs[at][signal]), &run.tracks[signal]) {
+                (Some(Predicted::Level(values)), _) => values.as_slice(),
+                (None, Some(track)) => &track.values,
+                _ => &[],
+            };
+            travels.push(span(values));
+            let each = run.tracks[signal].as_ref().map(|track| restarts(track, values));
             run.restarts = each.map(|each| Arc::new(Restarts { position, velocity, each }));
         }
+        travels
     }
 
     /// Whether it remembers displacements on the way that the model goes by itself: what is read in another unit than it was sent in, or with
     /// the other sign, is no place that a drive ever was at, and from there it would take long.
     fn remembers_its_own(&self, signal: usize) -> Result<bool, EffectError> {
         let mut own = self.clone();
-        let predicted = self.predict(&[], &Overrides::none())?;
-        let (position, velocity) = self.ports_of(signal);
-        let mut travels = Vec::new();
-        for (run, predicted) in own.runs.iter_mut().zip(&predicted.runs) {
-            let values = if let Predicted::Level(values) = &predicted[signal] { values.as_slice() } else { &[] };
-            let each = run.tracks[signal].as_ref().map(|track| restarts(track, values, WINDOW_S));
-            run.restarts = each.map(|each| Arc::new(Restarts { position, velocity, each }));
-            travels.push(span(values));
-        }
+        let travels = own.restart_at(signal, Some(&self.predict(&[], &Overrides::none())?));
         // What the model does not move says nothing.
         Ok(travels.iter().all(|travel| *travel <= 0.0) || own.remembers(signal, &travels)?)
-    }
-
-    fn ports_of(&self, signal: usize) -> (usize, usize) {
-        (self.signals[signal].port, self.kind.port("velocity").unwrap_or_default())
     }
 
     /// Whether more than a share of a displacement at the start of a window is still there after a while, in most windows; by run, how
@@ -197,12 +192,12 @@ impl Subject {
     }
 }
 
-/// Where something was at the first sample of every span of `every` seconds, by its positions at the instants of `track`.
-fn restarts(track: &Track, values: &[f64], every: f64) -> Vec<Restart> {
+/// Where something was at the first sample of every window, by its positions at the instants of `track`.
+fn restarts(track: &Track, values: &[f64]) -> Vec<Restart> {
     let instants = &track.grid.instants[track.first..];
     let (Some(first), Some(last)) = (instants.first(), instants.last()) else { return Vec::new() };
-    let windows = ((last - first) / every).floor() as usize;
-    let starts = (0..=windows).map(|window| first + window as f64 * every);
+    let windows = ((last - first) / WINDOW_S).floor() as usize;
+    let starts = (0..=windows).map(|window| first + window as f64 * WINDOW_S);
     let mut restarts: Vec<Restart> = starts
         .map(|start| instants.partition_point(|at| *at < start - 1e-9))
         .filter(|k| *k < values.len().min(instants.len()))
