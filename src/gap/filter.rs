@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::cause::Bare;
 use super::edges::interval;
 use super::grid::median;
-use super::locate::THRESHOLD;
+use super::locate::{THRESHOLD, evidence};
 use super::prediction::{Predicted, Prediction};
 use super::subject::{Subject, beam_of};
 use super::task::{LEAST_DEVICES, LEAST_SQUARE, NEARER, Task};
@@ -97,7 +97,7 @@ pub(super) fn find_beside_parameters(
         subject.signals.iter().any(flag)
     };
     let flagged: Vec<usize> = (0..subjects.len()).filter(|at| has_flags(&subjects[*at])).collect();
-    if flagged.len() < LEAST_DEVICES {
+    if flagged.is_empty() {
         return None;
     }
     let costs = |subjects: &[Subject], bare: &[Bare]| -> Vec<f64> {
@@ -134,6 +134,16 @@ pub(super) fn find_beside_parameters(
         best = shares.into_iter().map(|share| under(share * about)).fold(best, nearer);
     }
     if before.iter().sum::<f64>() - best.cost <= THRESHOLD {
+        return None;
+    }
+    // Where only one device has flags, nobody can say whether a filter is its own or all inputs': every machine has one, so that it
+    // is no gap where nothing else is left.
+    let explains = |(subject, bare): (&Subject, &Bare)| {
+        let mut subject = subject.clone();
+        set(&mut subject, best.filter_s);
+        evidence(&subject, &bare.prediction) <= THRESHOLD
+    };
+    if flagged.len() < LEAST_DEVICES && !picked.iter().zip(&best.bare).all(explains) {
         return None;
     }
     subjects.iter_mut().for_each(|subject| set(subject, best.filter_s));

@@ -18,6 +18,7 @@ use super::prediction::{Predicted, Prediction};
 use super::subject::Subject;
 use super::track::Track;
 use crate::effect::EffectError;
+use crate::value::Quantity;
 
 /// How old a report may be, s.
 pub const MOST_AGE_S: f64 = 2.5e-3;
@@ -28,8 +29,11 @@ const OF_CYCLE: f64 = 0.2;
 /// How many phases of a task are tried; then nearer and nearer to the best, so many times.
 const PHASES: u32 = 16;
 const HALVINGS: u32 = 9;
+/// Phases no further apart are one, s.
+const SAME_PHASE_S: f64 = 2e-8;
 /// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
-const CENTRINGS: u32 = 2;
+const CENTRINGS: u32 = 6;
+const SHORTENINGS: u32 = 3;
 const FURTHEST: f64 = 3.0;
 /// Steps of the age, s, and into how many the best one's neighbourhood is divided.
 const STEP_S: f64 = 2e-5;
@@ -82,8 +86,15 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
     let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
     let before: Vec<f64> = now.iter().map(|moments| moments.cost(0.0)).collect();
     let mut best = Best::of(&voters, cycle)?;
-    voters.par_iter_mut().try_for_each(|voter| voter.centre(best.task))?;
+    let found = best.task;
+    voters.par_iter_mut().try_for_each(|voter| voter.centre(found))?;
     best = best.nearby(&voters)?;
+    best.between_commands(&voters)?;
+    if found.every_s > 0.0 {
+        // Whether there is such a task at all is asked of nominal parameters that were found without one, too.
+        let at_once = Best::at_once(&mut voters)?;
+        best = if at_once.cost < best.cost { at_once } else { best };
+    }
     let nearer = before.iter().zip(&best.costs).filter(|(before, after)| *before - *after > NEARER).count();
     let gain = before.iter().sum::<f64>() - best.cost;
     let is_whole = |(voter, (before, after)): (&Voter, (&f64, &f64))| {
@@ -124,7 +135,29 @@ pub(super) fn find_phase(subjects: &[Subject], run: usize, known: Task) -> Resul
         let step = whole / f64::from(1u32 << halving);
         phase_s = try_all(&mut [-2.0, -1.0, 1.0, 2.0].into_iter().map(|steps| phase_s + steps * step))?;
     }
+    phase_s = try_all(&mut phases_near(&voters, Task { phase_s, ..known }).into_iter())?;
     Ok(Task { phase_s, ..known })
+}
+
+/// The phases near that of a task that are not one and the same: one for each span in which all commands are taken up at the same
+/// instants. Between two of them a command comes a whole task's cycle sooner or later, so that no slope leads from one to the other.
+fn phases_near(voters: &[Voter], task: Task) -> Vec<f64> {
+    let commands = voters.iter().flat_map(|voter| &voter.subject.runs[0].commands).map(|(_, told)| told.at);
+    phases_between(commands, task)
+}
+
+/// The same, of commands given at these instants, s.
+fn phases_between(commands: impl Iterator<Item = f64>, task: Task) -> Vec<f64> {
+    const REACH: f64 = 1.5;
+    let Task { every_s, phase_s, .. } = task;
+    let reach = REACH / f64::from(PHASES) * every_s;
+    // By how much later than the phase a command comes, at most half a cycle.
+    let behind = |at: f64| (at - phase_s + 0.5 * every_s).rem_euclid(every_s) - 0.5 * every_s;
+    let mut ends: Vec<f64> = commands.map(behind).filter(|behind| behind.abs() < reach).collect();
+    ends.extend([-reach, reach]);
+    ends.sort_by(f64::total_cmp);
+    let apart = ends.windows(2).filter(|pair| pair[1] - pair[0] > SAME_PHASE_S);
+    apart.map(|pair| (phase_s + 0.5 * (pair[0] + pair[1])).rem_euclid(every_s)).collect()
 }
 
 /// The devices of a run that have a say.
@@ -175,6 +208,29 @@ impl Best {
             }
         }
         Ok(best)
+    }
+
+    /// The best without a task, and the voters as they are best then.
+    fn at_once(voters: &mut [Voter]) -> Result<Best, EffectError> {
+        let mut best = Best::none();
+        for _ in 0..2 {
+            best = Best::none();
+            best.weigh(voters, Task::default())?;
+            voters.par_iter_mut().try_for_each(|voter| voter.centre(best.task))?;
+        }
+        best.weigh(voters, Task::default())?;
+        Ok(best)
+    }
+
+    /// Tries the phases near that of the best between which a command is taken up sooner or later.
+    fn between_commands(&mut self, voters: &[Voter]) -> Result<(), EffectError> {
+        let found = self.task;
+        if found.every_s > 0.0 {
+            for phase_s in phases_near(voters, found) {
+                self.weigh(voters, Task { phase_s, age_s: 0.0, ..found })?;
+            }
+        }
+        Ok(())
     }
 
     /// Tries a task with every age.
@@ -237,12 +293,30 @@ impl Voter {
     /// Takes the nominal parameters to be what they are best under a task: how they move the samples is no straight line.
     fn centre(&mut self, task: Task) -> Result<(), EffectError> {
         let under = self.under(task);
+        let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
+            let (rest, slopes) = voter.rest(&under.predict(&[], &voter.overrides())?);
+            let rest = rest + slopes * task.age_s;
+            let cost = rest.norm_squared() + voter.strain.norm_squared();
+            Ok((rest, cost))
+        };
+        let (mut rest, mut cost) = left(self)?;
         for _ in 0..CENTRINGS {
             self.linearise(&under)?;
-            let (rest, slopes) = self.rest(&under.predict(&[], &self.overrides())?);
-            let step = self.known.solve(&(self.columns.transpose() * (rest + slopes * task.age_s) - &self.strain));
-            // Further off nobody builds: what asks for it is a gap.
-            self.strain = (&self.strain + step).map(|strain| strain.clamp(-FURTHEST, FURTHEST));
+            let mut step = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+            let from = self.strain.clone();
+            let before = cost;
+            for _ in 0..SHORTENINGS {
+                // Further off nobody builds: what asks for it is a gap.
+                self.strain = (&from + &step).map(|strain| strain.clamp(-FURTHEST, FURTHEST));
+                (rest, cost) = left(self)?;
+                if cost <= before {
+                    break;
+                }
+                step *= 0.5;
+            }
+            if before - cost < NEARER {
+                break;
+            }
         }
         self.linearise(&under)
     }
@@ -282,6 +356,11 @@ impl Voter {
         let run = &self.subject.runs[0];
         let mut kept = Vec::new();
         for (place, predicted) in nominal.runs[0].iter().enumerate() {
+            // A force jumps with its command: a sample beside the jump is off by all of it, or by nothing.
+            let port = &self.subject.kind.ports[self.subject.signals[place].port];
+            if port.quantities.iter().any(|of| [Quantity::Force, Quantity::Torque].contains(of)) {
+                continue;
+            }
             if let (Some(track), Predicted::Level(values)) = (&run.tracks[place], predicted) {
                 let floor = run.floors[place].rms(0.0);
                 let moves = |k: &usize| slope(track, values, *k).abs() * MOST_AGE_S > 0.1 * floor;
@@ -367,6 +446,17 @@ mod tests {
         assert!((task.taken_up(1.0001) - 1.0001).abs() < 1e-9);
         assert!((task.taken_up(1.00011) - 1.0006).abs() < 1e-9);
         assert_eq!(Task::default().taken_up(1.23), 1.23);
+    }
+
+    /// Of commands that come 0.1, 0.11 and 0.4 ms behind the task's cycle two stand near a phase of 0.104 ms: three phases differ.
+    #[test]
+    fn phases_differ_where_a_command_stands_between_them() {
+        let task = Task { every_s: 5e-4, phase_s: 1.04e-4, ..Task::default() };
+        let found = phases_between([1.0001, 2.00011, 3.0004].into_iter(), task);
+        assert_eq!(found.len(), 3);
+        let taken = |phase_s: f64| [1.0001, 2.00011].map(|at| Task { phase_s, ..task }.taken_up(at));
+        let taken: Vec<[f64; 2]> = found.into_iter().map(taken).collect();
+        assert!(taken[0] != taken[1] && taken[1] != taken[2] && taken[0] != taken[2], "{taken:?}");
     }
 
     #[test]

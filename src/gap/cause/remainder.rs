@@ -1,7 +1,7 @@
 //! What is left after the best answer: whether it still depends on something, and on what.
 
 use super::bench::{Bench, Trial};
-use super::ladder::{DRAWS, Ladder};
+use super::ladder::{DRAWS, Ladder, Standing};
 use crate::gap::fit::Range;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
 use crate::gap::{Predicted, Prediction, Score};
@@ -18,6 +18,15 @@ const SPANS: usize = 9;
 /// By which share a parameter must change over the spans to be no constant, and how monotone that must be.
 const CHANGES: f64 = 0.25;
 const MONOTONE: f64 = 0.85;
+/// The same where it gains as much as this for each span to let it change: more than chance does.
+const CHANGES_SURELY: f64 = 0.08;
+const MONOTONE_SURELY: f64 = 0.7;
+const GAINS: f64 = 8.0;
+/// What share of the gap's squares may be left of one that is explained. (Plants with equations of their own leave 0.003 and less where the
+/// named effect is the true one, and 0.02 and more where it is none of the library.)
+const LEAST_SHARE: f64 = 0.01;
+/// How much of a floor's cost is uncertain because its noise is an estimate.
+const FLOOR_UNCERTAINTY: f64 = 0.06;
 
 /// What is left.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,7 +37,7 @@ pub struct Remainder {
     pub depends_on: Vec<String>,
     /// Whether it is more than noise and a few per cent of the gap.
     pub is_large: bool,
-    /// Whether it is large and depends on something.
+    /// Whether it is large and depends on something, or the answer's main parameter surely changes with time.
     pub is_significant: bool,
     /// In which share of the draws of blocks it is.
     pub certainty: f64,
@@ -51,21 +60,32 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let bare = bench.subject.score(&bench.predict(&[], &ladder.bare.at)?);
     let share = (misfit(&score) / misfit(&bare).max(1e-9)).min(1.0);
     let left = best.cost - ladder.floor.0;
-    let is_large = left > 18.0 * best.inflation() && left > 5.0 * ladder.floor.1.sqrt() && share > 0.05;
+    let is_beyond = |left: f64, variance: f64| left > 18.0 * best.inflation() && left > 5.0 * variance.sqrt();
+    // Late edges of one signal drown in what thousands of samples of a level cost less than their floor.
+    let Standing { worst, above, .. } = Standing::of(&score);
+    let is_large = share > LEAST_SHARE
+        && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1));
     let mut depends = dependences(bench, &prediction, &score);
-    let is_steady = best.set.is_empty()
-        || trend(bench, best).is_none_or(|(spread, monotone)| spread < CHANGES || monotone.abs() < MONOTONE);
+    let trend = if best.set.is_empty() { None } else { trend(bench, best) };
+    let (is_steady, is_surely_not) = trend.as_ref().map_or((true, false), Trend::judged);
+    if std::env::var("DBG").is_ok() {
+        eprintln!("DBGT {} {trend:?}", bench.subject.name);
+    }
     if !is_steady {
         depends.insert(0, ("time".to_owned(), 1.0, 1.0));
     }
-    let certainty = if is_large { depends.iter().map(|(_, _, certainty)| *certainty).fold(0.0, f64::max) } else { 0.0 };
+    let is_significant = is_large && !depends.is_empty() || is_surely_not;
+    let certainty = match is_significant {
+        true => depends.iter().map(|(_, _, certainty)| *certainty).fold(0.0, f64::max),
+        false => 0.0,
+    };
     let mut names: Vec<String> = Vec::new();
     for (name, ..) in &depends {
         if !names.contains(name) {
             names.push(name.clone());
         }
     }
-    Some(Remainder { share, is_large, is_significant: is_large && !names.is_empty(), depends_on: names, certainty })
+    Some(Remainder { share, is_large, is_significant, depends_on: names, certainty })
 }
 
 /// A quantity that a residual may depend on, sample by sample.
@@ -188,9 +208,29 @@ fn padded(mut values: Vec<f64>) -> Vec<f64> {
     values
 }
 
-/// How the answer's main parameter changes over the spans of the recordings: the spread of its values as a share of the value,
-/// and how monotone they are in time. `None` where it has none, or too few spans say anything.
-fn trend(bench: &Bench<'_>, best: &Trial) -> Option<(f64, f64)> {
+/// How the answer's main parameter changes over the spans of the recordings.
+#[derive(Clone, Copy, Debug)]
+struct Trend {
+    /// The spread of its values as a share of the value.
+    spread: f64,
+    /// How monotone they are in time, -1 to 1.
+    monotone: f64,
+    /// What it gains to let it have a value for each span, in deviance for each of them.
+    gain: f64,
+}
+
+impl Trend {
+    /// Whether it is a constant, and whether it surely is none.
+    fn judged(&self) -> (bool, bool) {
+        let goes = self.spread >= CHANGES && self.monotone.abs() >= MONOTONE;
+        let is_surely_not =
+            self.gain > GAINS && self.spread >= CHANGES_SURELY && self.monotone.abs() >= MONOTONE_SURELY;
+        (!goes && !is_surely_not, is_surely_not)
+    }
+}
+
+/// The trend of the answer's main parameter. `None` where it has none, or too few spans say anything.
+fn trend(bench: &Bench<'_>, best: &Trial) -> Option<Trend> {
     let value = *best.at.first().filter(|_| best.parameters() > 0)?;
     let Range { least, greatest, .. } = best.ranges[0];
     let shares = [0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.75, 2.0];
@@ -206,12 +246,15 @@ fn trend(bench: &Bench<'_>, best: &Trial) -> Option<(f64, f64)> {
         .collect::<Option<_>>()?;
     let inflation = best.inflation();
     let (mut times, mut values) = (Vec::new(), Vec::new());
+    let (mut each, mut together) = (0.0, vec![0.0; grid.len()]);
     for span in 0..costs.first()?.len() {
         let along: Vec<f64> = costs.iter().map(|costs| costs[span] / inflation).collect();
         let least = (0..along.len()).min_by(|a, b| along[*a].total_cmp(&along[*b]))?;
         let most = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         // A span that does not say anything of the parameter is left out.
         if most - along[least] > 9.0 {
+            each += along[least];
+            together.iter_mut().zip(&along).for_each(|(sum, cost)| *sum += cost);
             times.push(span as f64);
             values.push(vertex(&grid, &along, least));
         }
@@ -220,7 +263,8 @@ fn trend(bench: &Bench<'_>, best: &Trial) -> Option<(f64, f64)> {
         return None;
     }
     let spread = (quantile(&values, 0.9) - quantile(&values, 0.1)) / value.abs();
-    Some((spread, rank_correlation(&values, &times)))
+    let gain = (together.into_iter().fold(f64::INFINITY, f64::min) - each) / values.len() as f64;
+    Some(Trend { spread, monotone: rank_correlation(&values, &times), gain })
 }
 
 /// Where a parabola through the least of the costs and its neighbours is least.

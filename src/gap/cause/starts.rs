@@ -10,7 +10,7 @@ use super::scan;
 use crate::effect::EffectParameter;
 use crate::gap::fit::Range;
 use crate::gap::statistics::{quantile, span};
-use crate::gap::{Prediction, Score, Subject};
+use crate::gap::{Predicted, Prediction, Score, Subject};
 use crate::prototype::kind::PortType;
 use crate::value::Quantity;
 
@@ -99,10 +99,36 @@ fn stuck(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
             None => track.edges.is_empty().then_some(track.initial),
         }
     });
+    if let Some(since) = report.and_then(|signal| stuck_since(base.clone(), signal, clues)) {
+        return vec![since];
+    }
     match (report, shown) {
         (Some(_), None) => Vec::new(),
         (_, value) => fixed(Candidate { fixed: vec![("from", 0.0)], ..base }, "value", &[value.unwrap_or(0.0)]),
     }
+}
+
+/// A flag of one recording that changed before it stuck: in what it shows at the end, either from its last change on, which nothing
+/// but its getting stuck made, or from a later instant.
+fn stuck_since(base: Candidate, signal: usize, clues: &Clues<'_>) -> Option<Candidate> {
+    let [run] = clues.subject.runs.as_slice() else { return None };
+    let track = run.tracks[signal].as_ref()?;
+    let last = track.edges.last()?;
+    let instant = |index: usize| track.grid.instants.get(index).copied();
+    let (seen, before) = (instant(last.index)?, instant(last.index.checked_sub(1)?)?);
+    // From when on the prediction shows what it never became.
+    let missed = clues.nominal.runs.first().and_then(|predicted| match &predicted[signal] {
+        Predicted::Edges { edges, .. } => edges.iter().map(|edge| edge.at).find(|at| *at > seen),
+        _ => None,
+    })?;
+    let cycle = track.grid.cycle.max(1e-3);
+    let range = Range { least: (before - 2.0 * cycle).max(0.0), greatest: run.ends, scale: cycle };
+    Some(Candidate {
+        fixed: vec![("value", last.to)],
+        free: vec![Free { name: "from", range, is_time: true }],
+        starts: vec![vec![0.5 * (before + seen)], vec![0.5 * (seen + missed)]],
+        ..base
+    })
 }
 
 /// Effects that repeat along the way: the scan says with which period.
@@ -173,7 +199,8 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         ("second-order-lag", "damping") => (range(0.05, 20.0, 0.2), vec![0.3, 1.0, 2.0]),
         ("stribeck-friction", "velocity") => {
             let most = clues.scales.speed;
-            (range(1e-3, most.max(2e-3), 0.02 * most), times(&[0.003, 0.03, 0.2], most))
+            // Below a hundredth of its speeds what falls with the speed cannot be told from what lets go at once.
+            (range(0.01 * most, most.max(2e-3), 0.02 * most), times(&[0.02, 0.06, 0.2], most))
         }
         ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
         ("clock-drift", _) => (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),

@@ -54,9 +54,6 @@ impl Finding {
 /// What of a gap must be explained for the answer to be more than unknown.
 const WORTH_HAVING: f64 = 0.3;
 
-/// What may be left of a gap that is explained, whatever it goes with.
-const MUCH: f64 = 0.25;
-
 /// How far beyond chance a gap is one though it is less than noise and rounding are, where it goes with something.
 const FAR_BEYOND: f64 = 5.0;
 
@@ -106,12 +103,29 @@ pub(super) fn find(
     finding.bounds = intervals(&weighed, &finding.ladder.best, tick);
     finding.conclusion = match () {
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
-        () if finding.remainder.is_significant => Conclusion::Partial,
-        // Much is left that goes with nothing that is looked for.
-        () if finding.remainder.is_large && finding.remainder.share > MUCH => Conclusion::Partial,
+        // What is left may go with nothing that is looked for.
+        () if finding.remainder.is_large || finding.remainder.is_significant => Conclusion::Partial,
         () => Conclusion::Explained,
     };
     finding.replays = bench.replays();
+    if std::env::var("DBG").is_ok() {
+        let r = &finding.remainder;
+        eprintln!(
+            "DBGF {} {:?} set {:?} cost {} floor {:?} inflation {} bare {} share {} large {} signif {} certainty {} depends {:?}",
+            subject.name,
+            finding.conclusion,
+            finding.ladder.best.set.iter().map(|c| c.name()).collect::<Vec<_>>(),
+            finding.ladder.best.cost,
+            finding.ladder.floor,
+            finding.ladder.best.inflation(),
+            finding.ladder.bare.cost,
+            r.share,
+            r.is_large,
+            r.is_significant,
+            r.certainty,
+            r.depends_on
+        );
+    }
     Some(finding)
 }
 
