@@ -24,6 +24,7 @@ mod alone;
 mod apply;
 mod beginning;
 pub mod cause;
+mod chance;
 mod clocks;
 mod cost;
 pub mod diagnosis;

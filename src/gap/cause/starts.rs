@@ -199,8 +199,7 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         ("second-order-lag", "damping") => (range(0.05, 20.0, 0.2), vec![0.3, 1.0, 2.0]),
         ("stribeck-friction", "velocity") => {
             let most = clues.scales.speed;
-            // Below a hundredth of its speeds what falls with the speed cannot be told from what lets go at once.
-            (range(0.01 * most, most.max(2e-3), 0.02 * most), times(&[0.02, 0.06, 0.2], most))
+            (range(1e-3, most.max(2e-3), 0.02 * most), times(&[0.003, 0.03, 0.2], most))
         }
         ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
         ("clock-drift", _) => (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),

@@ -1,10 +1,13 @@
 //! What is found of one device.
 
+use std::sync::Arc;
+
 use super::Options;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers, climb,
     intervals, misfit, plainness, remainder,
 };
+use crate::gap::chance::{self, Chance};
 use crate::gap::{Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
@@ -39,6 +42,8 @@ pub struct Finding {
     pub misfit: f64,
     /// How often the device was replayed to find it.
     pub replays: usize,
+    /// An effect that draws anew each time, beside those of the best set.
+    pub chance: Option<Arc<Chance>>,
 }
 
 impl Finding {
@@ -65,6 +70,9 @@ pub(super) fn find(
     study: &Study,
     options: &Options<'_>,
 ) -> Option<Finding> {
+    let chance = chance::find(place, study, options.is_asked).map(Arc::new);
+    let gap = subject.score(&bare.prediction);
+    let (subject, bare) = chance.as_ref().map_or((subject, bare), |chance| (&chance.subject, &chance.bare));
     let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);
     let mut ladder = climb(&bench, &bare.at, options.is_asked, options.tell)?;
     if let Some(at) = fitted_better(&bench, &ladder) {
@@ -78,9 +86,10 @@ pub(super) fn find(
         answers: Vec::new(),
         bounds: Vec::new(),
         remainder: Remainder::default(),
-        misfit: misfit(&bare),
+        misfit: chance.as_ref().map_or_else(|| misfit(&bare), |chance| misfit(&gap).max(chance.misfit)),
         replays: 0,
         ladder,
+        chance: chance.clone(),
     };
     let beyond_chance = evidence(subject, &prediction);
     let has_gap =
@@ -89,7 +98,13 @@ pub(super) fn find(
         if has_gap {
             finding.remainder = remainder(&bench, &finding.ladder)?;
             let is_too_short = finding.ladder.too_few_blocks.is_some();
-            finding.conclusion = if is_too_short { Conclusion::TooShort } else { Conclusion::Unknown };
+            finding.conclusion = match finding.chance {
+                Some(_) => Conclusion::Partial,
+                None if is_too_short => Conclusion::TooShort,
+                None => Conclusion::Unknown,
+            };
+        } else if finding.chance.is_some() {
+            finding.conclusion = Conclusion::Explained;
         }
         finding.replays = bench.replays();
         return Some(finding);
@@ -99,6 +114,7 @@ pub(super) fn find(
     let weighed = bench.with(&weighing);
     finding.answers = answers(&weighed, &finding.ladder, options.is_asked, options.tell);
     name_the_plainest(&mut finding);
+    name_what_lets_go_at_once(&mut finding);
     let tick = study.ticks.iter().copied().fold(0.0, f64::max);
     finding.bounds = intervals(&weighed, &finding.ladder.best, tick);
     finding.conclusion = match () {
@@ -108,24 +124,6 @@ pub(super) fn find(
         () => Conclusion::Explained,
     };
     finding.replays = bench.replays();
-    if std::env::var("DBG").is_ok() {
-        let r = &finding.remainder;
-        eprintln!(
-            "DBGF {} {:?} set {:?} cost {} floor {:?} inflation {} bare {} share {} large {} signif {} certainty {} depends {:?}",
-            subject.name,
-            finding.conclusion,
-            finding.ladder.best.set.iter().map(|c| c.name()).collect::<Vec<_>>(),
-            finding.ladder.best.cost,
-            finding.ladder.floor,
-            finding.ladder.best.inflation(),
-            finding.ladder.bare.cost,
-            r.share,
-            r.is_large,
-            r.is_significant,
-            r.certainty,
-            r.depends_on
-        );
-    }
     Some(finding)
 }
 
@@ -152,6 +150,23 @@ fn is_significant(ladder: &Ladder, bare: &Score) -> bool {
         |(floor, variance): (f64, f64)| 18.0 * ladder.bare.inflation().min(10.0) + 5.0 * variance.sqrt() + 0.1 * floor;
     let Standing { worst, above, .. } = Standing::of(bare);
     ladder.excess() > least(ladder.floor) || above > least(worst)
+}
+
+/// A friction that falls within a hundredth of the axis's speeds is one that lets go at once, told with a number more.
+fn name_what_lets_go_at_once(finding: &mut Finding) {
+    /// Of a velocity's scale, which is two hundredths of the highest speed.
+    const AT_ONCE: f64 = 0.5;
+    let Ladder { best, singles, .. } = &mut finding.ladder;
+    let [named] = best.set.as_slice() else { return };
+    let velocity = named.free.iter().zip(&best.at).find(|(free, _)| free.name == "velocity");
+    let lets_go = velocity.is_some_and(|(free, velocity)| *velocity < AT_ONCE * free.range.scale);
+    if named.effect.id != "stribeck-friction" || !lets_go {
+        return;
+    }
+    let is_plain = |trial: &&Trial| trial.set.iter().all(|candidate| candidate.effect.id == "breakaway-friction");
+    if let Some(plain) = singles.iter().find(is_plain) {
+        *best = plain.clone();
+    }
 }
 
 /// Of the effects that give the same motion the plainest is named; a nominal parameter that gives it too is another name for it.

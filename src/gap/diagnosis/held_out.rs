@@ -60,7 +60,12 @@ impl Measured {
                 true => None,
                 false => subject.predict(&specs, best).ok().map(|with| subject.score(&with)),
             };
-            let after = with(subject);
+            // What was drawn there is read off as in the training; how it is drawn is as it was found there.
+            let others = finding.chance.as_ref().and_then(|chance| chance.taken_out(subject, best));
+            let after = match &others {
+                Some(other) => with(other).or_else(|| Some(other.score(&other.predict(&[], best).ok()?))),
+                None => with(subject),
+            };
             // What lies within the tolerances of nominal parameters is no gap: they are as the training has them.
             let nominal = subject.predict(&[], bare).unwrap_or_else(|_| held_out.bare[place].prediction.clone());
             let before = subject.score(&nominal);

@@ -74,6 +74,9 @@ pub(super) fn fill(report: &mut Report, plant: &Plant, study: &Study, findings: 
         let subject = &study.subjects[finding.subject];
         let site = Site { plant, subject };
         report.fitted.extend(site.fitted(&finding.ladder.best.overrides));
+        if let Some(chance) = &finding.chance {
+            report.cause.push(site.cause(&chance.candidate, &chance.bounds, &[], all));
+        }
         for answer in &finding.answers {
             let first: usize = finding.ladder.best.set[..answer.place].iter().map(|c| c.free.len()).sum();
             let candidate = &finding.ladder.best.set[answer.place];

@@ -64,6 +64,9 @@ pub struct Practice {
     /// Which plants the cases are of
     #[arg(long, value_enum, default_value_t = Sites::All)]
     pub on: Sites,
+    /// Cases of this effect alone, by its id, clear and gross in turn: intermittent, x-filter-clogs
+    #[arg(long, value_name = "ID")]
+    pub effect: Option<String>,
 }
 
 #[derive(Debug, Args)]

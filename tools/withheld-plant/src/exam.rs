@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::arguments::{Arguments, Cases, Command, Exam, Open, Practice};
 use crate::cases::Answer;
-use crate::plans::{Plan, Sizes, plans};
+use crate::plans::{Plan, Sizes, of_effect, plans};
 use crate::site::Sites;
 use crate::socket::{SocketError, pairs};
 use crate::workbench::Conditions;
@@ -47,6 +47,8 @@ pub enum ExamError {
     /// The answers have no JSON form.
     #[error("failed to write the answers as JSON")]
     Json(#[from] serde_json::Error),
+    #[error("no effect of the catalogue is called {0}: expected an id such as intermittent or x-filter-clogs")]
+    NoSuchEffect(String),
 }
 
 /// All answers of an exam.
@@ -91,7 +93,11 @@ fn practice(asked: &Practice) -> Result<String, ExamError> {
         return Err(ExamError::AnswersInside { path: asked.answers.clone() });
     }
     let conditions = Conditions { prompt: asked.prompt, exact: asked.exact, classless: asked.no_classes };
-    let plans = plans(Sizes::WHOLE.scaled(asked.cases), asked.on, asked.seed);
+    let plans = match &asked.effect {
+        None => plans(Sizes::WHOLE.scaled(asked.cases), asked.on, asked.seed),
+        Some(effect) => of_effect(effect, asked.cases, asked.on, asked.seed)
+            .ok_or_else(|| ExamError::NoSuchEffect(effect.clone()))?,
+    };
     let answers = make(&asked.out, plans, asked.seed, "practice", conditions)?;
     write(&asked.answers, &answers)?;
     Ok(format!("{} cases in {}, their answers in {}", asked.cases, asked.out.display(), asked.answers.display()))

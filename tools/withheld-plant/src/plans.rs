@@ -122,6 +122,21 @@ pub fn plans(sizes: Sizes, sites: Sites, seed: u64) -> Vec<Plan> {
     plans
 }
 
+/// So many cases of one effect, clear and gross in turn, at one spot after the other; `None` where the catalogue has no such effect.
+pub fn of_effect(effect: &str, cases: usize, sites: Sites, seed: u64) -> Option<Vec<Plan>> {
+    let (mut dice, is_outside) = (Dice::new(seed, 1), effect.starts_with("x-"));
+    let mut deck = Deck::new(is_outside);
+    ENTRIES.iter().find(|entry| entry.effect == effect)?;
+    let plan = |k: usize| {
+        let site = sites.site(k);
+        let first = vec![deck.next(&mut dice, |entry, spot| entry.effect == effect && site.fits(entry, spot))];
+        let sort = if is_outside { Sort::Outside } else { Sort::Single };
+        let magnitude = if k.is_multiple_of(2) { Magnitude::Clear } else { Magnitude::Gross };
+        Plan { sort, site, magnitude, first, seed: dice.seed() }
+    };
+    Some((0..cases).map(plan).collect())
+}
+
 /// Every effect at every spot, dealt out again when all have had their turn.
 pub struct Deck {
     outside: bool,

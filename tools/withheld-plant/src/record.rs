@@ -13,6 +13,9 @@ use crate::plant::{Command, Kind, Plant, Signal};
 use crate::quirk::{Quirk, Quirks};
 use crate::stream::Stream;
 
+/// A message that is lost or not comes this much before its report, s.
+const BEFORE_S: f64 = 1e-9;
+
 /// How a machine is listened to. Nobody who diagnoses it knows any of this.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Surroundings {
@@ -180,7 +183,9 @@ pub fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item
 pub fn way(quirks: &[Quirk], signal: &Signal, around: &Surroundings) -> Vec<Quirk> {
     let mut way: Vec<Quirk> = passes(quirks, signal).cloned().collect();
     for quirk in way.iter_mut().filter(|quirk| quirk.effect == "lost-messages") {
+        // A message is a report: what one brings is what its sampling saw.
         quirk.parameters.push(("cycle".to_owned(), around.cycle));
+        quirk.parameters.push(("phase".to_owned(), around.sample(around.phase) - BEFORE_S));
     }
     if signal.kind == Kind::Flag && around.filter > 0.0 {
         way.push(Quirk {

@@ -61,7 +61,7 @@ impl Stream {
             "noise" => self.map(|_, x| x + value("sigma") * dice.normal()),
             "hysteresis" if !is_flag => self.sticky(0.5 * value("width")),
             "stuck" => self.stuck(value("value"), value("from")),
-            "stale-hold" => self.held(value("time"), end, |_| true),
+            "stale-hold" => self.held(value("time"), 0.0, end, |_| true),
             "intermittent" => self.away(value("time"), end, || dice.is_so(value("probability"))),
             "input-filter" if is_flag => self.delayed(value("time_constant"), value("time_constant")),
             "input-filter" => self.filtered(value("time_constant"), end),
@@ -71,7 +71,7 @@ impl Stream {
             "lost-messages" => {
                 let cycle = value("cycle");
                 let mut loses = || !dice.is_so(value("probability"));
-                if cycle > 0.0 { self.held(cycle, end, |_| loses()) } else { self.kept(loses) }
+                if cycle > 0.0 { self.held(cycle, value("phase"), end, |_| loses()) } else { self.kept(loses) }
             }
             "sampling-jitter" => self.jittered(|| (value("sigma") * dice.normal()).abs()),
             _ => self,
@@ -103,12 +103,13 @@ impl Stream {
         self
     }
 
-    /// Refreshed at multiples of `time`, when it is not missed.
-    fn held(self, time: f64, end: f64, mut is_fresh: impl FnMut(f64) -> bool) -> Stream {
+    /// Refreshed at multiples of `time` behind `phase`, when it is not missed; before that it is as at the start.
+    fn held(self, time: f64, phase: f64, end: f64, mut is_fresh: impl FnMut(f64) -> bool) -> Stream {
         let mut out = Stream::new(true);
+        out.push(0.0, self.at(0.0));
         for k in 0..=(end / time) as usize {
-            let at = k as f64 * time;
-            if k == 0 || is_fresh(at) {
+            let at = phase + k as f64 * time;
+            if at > 0.0 && is_fresh(at) {
                 out.push(at, self.at(at));
             }
         }

@@ -55,6 +55,7 @@ enum Law {
     /// Refreshed every so often, when that is not lost.
     Held {
         every: f64,
+        phase: f64,
         loss: Option<f64>,
         next: u32,
         y: f64,
@@ -90,7 +91,8 @@ impl Link {
     pub fn of(quirk: &Quirk, is_flag: bool, is_edge: bool, seed: u64) -> Option<Link> {
         let value = |name: &str| quirk.value(name);
         let late = |time, stretch| Law::Late { time, stretch, past: Past::new(is_edge) };
-        let held = |every, loss| Law::Held { every, loss, next: 0, y: 0.0, past: Past::new(is_edge) };
+        let phase = value("phase");
+        let held = |every, loss| Law::Held { every, phase, loss, next: 0, y: 0.0, past: Past::new(is_edge) };
         let linear = |factor, offset, rate| Law::Linear { factor, offset, rate };
         let switched = |on, off| Law::Switched { on, off, delay: Delay::new(on, off) };
         let law = match quirk.effect.as_str() {
@@ -155,15 +157,19 @@ impl Link {
                 past.push(now, x);
                 past.take(now / *stretch - *time)
             }
-            Law::Held { every, loss, next, y, past } => {
+            Law::Held { every, phase, loss, next, y, past } => {
                 past.push(now, x);
-                while f64::from(*next) * *every <= now {
-                    let is_fresh = *next == 0 || !loss.is_some_and(|loss| dice.is_so(loss));
-                    let seen = past.take(f64::from(*next) * *every);
+                *y = if before.is_none() { x } else { *y };
+                loop {
+                    let at = *phase + f64::from(*next) * *every;
+                    if at > now {
+                        return *y;
+                    }
+                    let is_fresh = at > 0.0 && !loss.is_some_and(|loss| dice.is_so(loss));
+                    let seen = past.take(at);
                     *y = if is_fresh { seen } else { *y };
                     *next += 1;
                 }
-                *y
             }
             Law::Away { every, probability, windows, is_away } => {
                 while f64::from(*windows) * *every <= now {

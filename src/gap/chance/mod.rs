@@ -1,0 +1,144 @@
+//! Effects that draw anew each time: a loose contact, reports that get lost, a sensor that scatters.
+//!
+//! No prediction repeats what was drawn, so none of them can be fitted as the others are. But each leaves a mark of its own in the
+//! recording: of a loose contact every sample is as predicted or 0, of lost reports it is as predicted or what was last reported.
+//! What was drawn is read off the recording sample by sample, taken out of it, and what is left is looked at as ever: with nothing
+//! left, the effect is the answer; else it stands beside what explains the rest. A sensor that scatters takes nothing out: its
+//! noise is in the floor already, and stands out of that of all others.
+
+mod read;
+mod scatter;
+
+use super::cause::{Bare, Bounds, Candidate, Free};
+use super::evidence;
+use super::fit::Range;
+use super::locate::THRESHOLD;
+use super::overrides::Overrides;
+use super::prediction::Prediction;
+use super::study::Study;
+use super::subject::{Subject, Timing};
+use crate::effect::EFFECTS;
+use crate::plant::EffectPlace;
+use read::{Law, Reading};
+
+/// An effect that draws, found in the training.
+#[derive(Clone, Debug)]
+pub struct Chance {
+    pub candidate: Candidate,
+    /// One for each of its parameters.
+    pub bounds: Vec<Bounds>,
+    /// The device without what was drawn, and its nominal parameters fitted anew.
+    pub subject: Subject,
+    pub bare: Bare,
+    /// By how many floors squared the device is off by it, over all samples.
+    pub misfit: f64,
+    law: Option<Law>,
+    signals: Vec<usize>,
+}
+
+impl Chance {
+    /// Another recording of the device without what was drawn there, its nominal parameters as `overrides` say.
+    pub fn taken_out(&self, subject: &Subject, overrides: &Overrides) -> Option<Subject> {
+        let law = self.law?;
+        let prediction = subject.predict(&[], overrides).ok()?;
+        let mut other = subject.clone();
+        for signal in &self.signals {
+            if let Some(reading) = Reading::of(&other, &prediction, *signal, law, true) {
+                reading.take_out(&mut other, *signal);
+            }
+        }
+        Some(other)
+    }
+}
+
+/// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
+const MOST_LEFT: f64 = 0.05;
+
+/// Looks for effects that draw in what `bare` leaves of the device at `place` of the study. `is_asked` says of an effect's id whether it is
+/// looked for.
+pub fn find(place: usize, study: &Study, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<Chance> {
+    let (subject, bare) = (&study.subjects[place], &study.bare[place]);
+    if subject.is_taken_up_again() {
+        return None;
+    }
+    let has_gap = evidence(subject, &bare.prediction) > THRESHOLD;
+    let by_reading = || [Law::Away, Law::Lost].into_iter().find_map(|law| taken_out(subject, bare, law, is_asked));
+    let found = if has_gap { by_reading() } else { None };
+    found.or_else(|| if is_asked("noise") { scatter::find(place, study) } else { None })
+}
+
+/// The device without what a law drew of its signals, if that explains it.
+fn taken_out(subject: &Subject, bare: &Bare, law: Law, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<Chance> {
+    if !is_asked(law.id()) {
+        return None;
+    }
+    let before = evidence(subject, &bare.prediction);
+    let read_all = |is_known: bool| -> Vec<(usize, Reading)> {
+        let read = |signal: usize| Some((signal, Reading::of(subject, &bare.prediction, signal, law, is_known)?));
+        (0..subject.signals.len()).filter_map(read).collect()
+    };
+    let shown = read_all(false);
+    if shown.is_empty() {
+        return None;
+    }
+    // Reports get lost of a whole link, a contact is one signal's.
+    let readings = if law == Law::Lost && shown.len() > 1 { read_all(true) } else { shown };
+    let mut other = subject.clone();
+    readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
+    let nominal = other.predict(&[], &Overrides::none()).ok()?;
+    other.find_floors(&nominal, Timing::AsFound);
+    let bare = fitted(&mut other, bare, &nominal);
+    if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
+        return None;
+    }
+    let all = Reading::sum(readings.iter().map(|(_, reading)| reading));
+    let signals: Vec<usize> = readings.iter().map(|(signal, _)| *signal).collect();
+    // All that could show it do: it is the link's, not one signal's.
+    let is_shown_by = |signal: usize| Reading::could_show(&other, &bare.prediction, signal, law);
+    let could = (0..subject.signals.len()).filter(|signal| is_shown_by(*signal)).count();
+    let is_whole = law == Law::Lost && signals.len() > 1 && could <= signals.len();
+    let component = (!is_whole && signals.len() == 1 && (could > 1 || law == Law::Away))
+        .then(|| subject.signals[signals[0]].property.clone());
+    let (least, share, most) = all.share();
+    let (name, time) = law.time(&all);
+    let bounds = vec![
+        Bounds { value: share, interval: [least, most], is_identifiable: true },
+        Bounds { value: time.0, interval: time.1, is_identifiable: true },
+    ];
+    let candidate = candidate(law.id(), EffectPlace::ReportLink, component, &["probability", name], &bounds)?;
+    Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, law: Some(law), signals })
+}
+
+/// The nominal parameters of a device whose recording changed, and its floors under them.
+fn fitted(subject: &mut Subject, bare: &Bare, nominal: &Prediction) -> Bare {
+    let found = bare.again(subject, nominal);
+    match subject.find_floors_again(&found.prediction) {
+        true => found.again(subject, nominal),
+        false => found,
+    }
+}
+
+/// An effect with parameters that are known.
+fn candidate(
+    id: &str,
+    place: EffectPlace,
+    component: Option<String>,
+    names: &[&'static str],
+    bounds: &[Bounds],
+) -> Option<Candidate> {
+    let effect = EFFECTS.iter().find(|effect| effect.id == id)?;
+    let free = names.iter().zip(bounds).map(|(name, bounds)| Free {
+        name,
+        range: Range { least: bounds.interval[0], greatest: bounds.interval[1], scale: 1.0 },
+        is_time: false,
+    });
+    Some(Candidate {
+        effect,
+        place,
+        component,
+        texts: std::collections::BTreeMap::new(),
+        fixed: Vec::new(),
+        free: free.collect(),
+        starts: vec![bounds.iter().map(|bounds| bounds.value).collect()],
+    })
+}

@@ -1,0 +1,409 @@
+//! What was drawn, read off the recording: sample by sample of a level, edge by edge of a flag.
+
+use crate::gap::prediction::{Predicted, Prediction};
+use crate::gap::statistics::quantile;
+use crate::gap::subject::{Subject, beam_of};
+use crate::gap::track::{Edge, Track};
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Law {
+    /// The signal is 0 for whole windows.
+    Away,
+    /// A report brings nothing new.
+    Lost,
+}
+
+/// How far from what it should be a sample may be, in standard deviations of its floor; a step is added.
+const GATE: f64 = 5.0;
+/// Beyond how many such gates apart the two things that a sample may be can be told apart.
+const APART: f64 = 2.0;
+/// How many samples must tell the two apart, and which share of them may be neither.
+const LEAST_TELLING: usize = 20;
+const STRANGE: f64 = 0.02;
+/// By how much likelier a sample must be what was drawn than what was predicted, in deviance.
+const LIKELIER: f64 = 2.0;
+/// Which quantile of the stretches is one window.
+const USUAL: f64 = 0.4;
+/// How many samples must have been drawn, in how many stretches; and how many at most, of those that tell.
+const LEAST_DRAWN: usize = 6;
+const LEAST_STRETCHES: usize = 3;
+const MOST_DRAWN: f64 = 0.9;
+/// How many edges of a flag that is late by whole cycles.
+const LEAST_EDGES: usize = 3;
+/// Which share of its edges may come a cycle early, by parameters that are not known better.
+const EARLY: f64 = 0.1;
+
+/// What was drawn of one signal.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Reading {
+    /// By run, the stretches of the grid in which it was: first and last index.
+    stretches: Vec<Vec<(usize, usize)>>,
+    /// How many samples or edges tell, and how many of them were drawn.
+    telling: usize,
+    drawn: usize,
+    /// How long the stretches last, s, and the cycle of the grid.
+    spans: Vec<f64>,
+    cycle: f64,
+    /// How far off what was drawn is, in floors squared.
+    pub misfit: f64,
+}
+
+impl Law {
+    pub fn id(self) -> &'static str {
+        match self {
+            Law::Away => "intermittent",
+            Law::Lost => "lost-messages",
+        }
+    }
+
+    /// Its time: of a loose contact the length of a window, of lost reports the cycle, s; with its interval.
+    pub fn time(self, reading: &Reading) -> (&'static str, (f64, [f64; 2])) {
+        match self {
+            Law::Lost => ("cycle", (reading.cycle, [reading.cycle; 2])),
+            Law::Away => ("time", reading.window()),
+        }
+    }
+}
+
+impl Reading {
+    /// What a law drew of a signal: `None` where it does not fit, or draws too little to be seen. Where another signal of the same link
+    /// has shown it already (`is_known`) a single draw is enough.
+    pub fn of(subject: &Subject, prediction: &Prediction, signal: usize, law: Law, is_known: bool) -> Option<Reading> {
+        let mut all = Reading::default();
+        for (run, predicted) in subject.runs.iter().zip(&prediction.runs) {
+            let Some(track) = &run.tracks[signal] else {
+                all.stretches.push(Vec::new());
+                continue;
+            };
+            all.cycle = all.cycle.max(track.grid.cycle);
+            match &predicted[signal] {
+                Predicted::Level(values) => {
+                    let half = if subject.signals[signal].is_count { 0.5 } else { 0.0 };
+                    all.level(track, values, half, &run.floors[signal], law)?;
+                }
+                Predicted::Edges { initial, edges } if beam_of(&subject.signals[signal]).is_none() => {
+                    let sigma = run.edge_sigmas[signal];
+                    let edges: Vec<(f64, usize, f64)> =
+                        edges.iter().map(|edge| (edge.at, edge.index, edge.to)).collect();
+                    match law {
+                        Law::Away => all.flag_away(track, *initial, &edges)?,
+                        Law::Lost => all.flag_late(track, &edges, sigma)?,
+                    }
+                }
+                _ => all.stretches.push(Vec::new()),
+            }
+        }
+        let is_flag = subject.runs.iter().flat_map(|run| &run.tracks[signal]).all(|track| track.values.is_empty());
+        let least = if is_flag { LEAST_EDGES } else { LEAST_DRAWN };
+        let stretches: usize = all.stretches.iter().map(Vec::len).sum();
+        if is_known {
+            return (stretches > 0).then_some(all);
+        }
+        let is_enough = all.drawn >= least
+            && stretches >= LEAST_STRETCHES
+            && (is_flag || all.telling >= LEAST_TELLING)
+            && all.drawn as f64 <= MOST_DRAWN * all.telling as f64;
+        is_enough.then_some(all)
+    }
+
+    /// Whether a signal moves enough to show what a law draws.
+    pub fn could_show(subject: &Subject, prediction: &Prediction, signal: usize, law: Law) -> bool {
+        let of = |(run, predicted): (&crate::gap::Run, &Vec<Predicted>)| match (&run.tracks[signal], &predicted[signal])
+        {
+            (Some(_), Predicted::Level(values)) => {
+                let gate = gate(&run.floors[signal], 0.0);
+                let tells = |pair: &[f64]| match law {
+                    Law::Away => pair[1].abs() > APART * gate,
+                    Law::Lost => (pair[1] - pair[0]).abs() > APART * gate,
+                };
+                values.windows(2).filter(|pair| tells(pair)).count() >= 4 * LEAST_TELLING
+            }
+            (Some(_), Predicted::Edges { edges, .. }) => {
+                beam_of(&subject.signals[signal]).is_none() && edges.len() >= 8 * LEAST_EDGES
+            }
+            _ => false,
+        };
+        subject.runs.iter().zip(&prediction.runs).any(of)
+    }
+
+    fn level(
+        &mut self,
+        track: &Track,
+        predicted: &[f64],
+        half: f64,
+        floor: &crate::gap::Floor,
+        law: Law,
+    ) -> Option<()> {
+        let instants = &track.grid.instants;
+        let (mut telling, mut sure, mut drawn, mut strange) = (0, 0, Vec::new(), 0);
+        let mut last = predicted.first().copied()?;
+        for (k, (recorded, predicted)) in track.values.iter().zip(predicted).enumerate() {
+            let index = track.first + k;
+            if track.is_blind(index) {
+                continue;
+            }
+            let instant = |index: usize| instants.get(index).copied().unwrap_or(0.0);
+            let span = (instant(index) - instant(index.saturating_sub(1))).max(1e-9);
+            let other = match law {
+                Law::Away => 0.0,
+                Law::Lost => last,
+            };
+            let slope = ((predicted - last) / span).abs();
+            let gate = gate(floor, slope);
+            // A contact that is away reads 0 and nothing of a count's half.
+            let value = if law == Law::Away && *recorded == 0.0 { 0.0 } else { recorded + half };
+            let (off, from_other) = ((value - predicted).abs(), (value - other).abs());
+            let tells = (predicted - other).abs() > APART * gate;
+            telling += usize::from(tells);
+            strange += usize::from(off > gate && from_other > gate);
+            let square = floor.sigma(slope).powi(2) + floor.step.powi(2) / 12.0;
+            if from_other <= gate && off.powi(2) - from_other.powi(2) > LIKELIER * square {
+                sure += usize::from(tells);
+                drawn.push(index);
+                self.misfit += off.powi(2) / square;
+            } else {
+                last = *predicted;
+            }
+        }
+        if strange as f64 > STRANGE * telling as f64 + 2.0 {
+            return None;
+        }
+        self.telling += telling;
+        self.drawn += sure;
+        let stretches = stretches(&drawn);
+        self.spans.extend(stretches.iter().map(|(from, to)| (to - from + 1) as f64 * track.grid.cycle));
+        self.stretches.push(stretches);
+        Some(())
+    }
+
+    /// A flag that is 0 where it is predicted to be 1, and never the other way round.
+    fn flag_away(&mut self, track: &Track, initial: f64, predicted: &[(f64, usize, f64)]) -> Option<()> {
+        let count = track.grid.instants.len();
+        let recorded = states(track.initial, track.edges.iter().map(|edge| (edge.index, edge.to)), count);
+        let foreseen = states(initial, predicted.iter().map(|(_, index, to)| (*index, *to)), count);
+        let all = || (track.first..count).filter(|at| !track.is_blind(*at));
+        let up: Vec<usize> = all().filter(|at| foreseen[*at] != 0.0).collect();
+        let drawn: Vec<usize> = up.iter().copied().filter(|at| recorded[*at] == 0.0).collect();
+        let wrong = all().filter(|at| foreseen[*at] == 0.0 && recorded[*at] != 0.0).count();
+        let stretches = stretches(&drawn);
+        // Away and back again while nothing changes: what else would do that?
+        let is_inner = |(from, to): &&(usize, usize)| {
+            let is_up =
+                |at: Option<usize>| at.is_some_and(|at| at < count && foreseen[at] != 0.0 && recorded[at] != 0.0);
+            to > from && is_up(from.checked_sub(1)) && is_up(Some(to + 1))
+        };
+        let inner = stretches.iter().filter(is_inner).count();
+        if wrong > predicted.len() || inner * 2 < stretches.len() || inner < 2 {
+            return None;
+        }
+        self.telling += up.len();
+        self.drawn += drawn.len();
+        self.misfit += 24.0 * stretches.len() as f64;
+        let long = stretches.iter().filter(is_inner);
+        self.spans.extend(long.map(|(from, to)| (to - from + 1) as f64 * track.grid.cycle));
+        self.stretches.push(stretches);
+        Some(())
+    }
+
+    /// A flag some of whose edges are late by whole cycles, and none is early.
+    fn flag_late(&mut self, track: &Track, predicted: &[(f64, usize, f64)], sigma: f64) -> Option<()> {
+        // A pulse of which both edges got lost was never seen: the shortest are.
+        let mut foreseen = predicted.to_vec();
+        let mut late = Vec::new();
+        while foreseen.len() > track.edges.len() + 1 && late.len() * 10 < predicted.len() {
+            let long = |at: &usize| foreseen[at + 1].0 - foreseen[*at].0;
+            let shortest = (0..foreseen.len() - 1).min_by(|a, b| long(a).total_cmp(&long(b)))?;
+            late.push((foreseen[shortest].1, foreseen[shortest + 1].1));
+            foreseen.drain(shortest..shortest + 2);
+        }
+        if track.edges.len() != foreseen.len() {
+            return None;
+        }
+        let mut early = 0;
+        for (edge, (at, index, to)) in track.edges.iter().zip(&foreseen) {
+            let due = track.grid.instants.partition_point(|instant| *instant < at + 3.0 * sigma);
+            if edge.to != *to {
+                return None;
+            }
+            let soonest = track.grid.instants.partition_point(|instant| *instant < at - 3.0 * sigma);
+            early += usize::from(edge.index < soonest.min(*index));
+            if edge.index > due.max(*index) {
+                late.push((*index, edge.index));
+            }
+        }
+        if early as f64 > EARLY * foreseen.len() as f64 {
+            return None;
+        }
+        self.telling += predicted.len();
+        self.drawn += late.len();
+        self.misfit += 12.0 * late.len() as f64;
+        late.sort_unstable();
+        self.stretches.push(late);
+        Some(())
+    }
+
+    /// Takes what was drawn out of the recording of a signal.
+    pub fn take_out(&self, subject: &mut Subject, signal: usize) {
+        for (run, stretches) in subject.runs.iter_mut().zip(&self.stretches) {
+            let Some(track) = &mut run.tracks[signal] else { continue };
+            if track.values.is_empty() {
+                take_out_of_flag(track, stretches);
+            }
+            track.blind.extend(stretches.iter().copied());
+            track.blind.sort_unstable();
+        }
+    }
+
+    /// Several signals' readings as one.
+    pub fn sum<'a>(readings: impl Iterator<Item = &'a Reading>) -> Reading {
+        let mut sum = Reading::default();
+        for reading in readings {
+            sum.telling += reading.telling;
+            sum.drawn += reading.drawn;
+            sum.misfit += reading.misfit;
+            sum.spans.extend(&reading.spans);
+            sum.cycle = sum.cycle.max(reading.cycle);
+        }
+        sum
+    }
+
+    /// Which share was drawn, between Wilson's bounds of 95 %. What lasts for several samples was drawn once.
+    pub fn share(&self) -> (f64, f64, f64) {
+        let share = self.drawn as f64 / self.telling.max(1) as f64;
+        let each = match self.spans.is_empty() || self.cycle <= 0.0 {
+            true => 1.0,
+            false => (self.spans.iter().sum::<f64>() / self.spans.len() as f64 / self.cycle).max(1.0),
+        };
+        let (count, z) = (self.telling as f64 / each, 1.96_f64);
+        let middle = (share + z * z / (2.0 * count)) / (1.0 + z * z / count);
+        let reach = z / (1.0 + z * z / count) * (share * (1.0 - share) / count + (z / (2.0 * count)).powi(2)).sqrt();
+        ((middle - reach).max(0.0), share, (middle + reach).min(1.0))
+    }
+
+    /// How long a window is, s, and its interval: what most stretches last, within a cycle.
+    fn window(&self) -> (f64, [f64; 2]) {
+        // Some are cut short by where the signal is 0 anyway; most are one window long.
+        if self.spans.is_empty() {
+            return (self.cycle, [self.cycle; 2]);
+        }
+        let single = quantile(&self.spans, USUAL).max(self.cycle);
+        let off = self.cycle;
+        (single, [(single - off).max(0.0), single + off])
+    }
+}
+
+/// How far from what it should be a sample may lie.
+fn gate(floor: &crate::gap::Floor, slope: f64) -> f64 {
+    GATE * floor.sigma(slope) + floor.step
+}
+
+/// Neighbouring places as stretches.
+fn stretches(places: &[usize]) -> Vec<(usize, usize)> {
+    let mut stretches: Vec<(usize, usize)> = Vec::new();
+    for place in places {
+        match stretches.last_mut() {
+            Some(last) if last.1 + 1 == *place => last.1 = *place,
+            _ => stretches.push((*place, *place)),
+        }
+    }
+    stretches
+}
+
+/// A flag at each instant.
+fn states(initial: f64, edges: impl Iterator<Item = (usize, f64)>, count: usize) -> Vec<f64> {
+    let mut states = vec![initial; count];
+    for (index, to) in edges {
+        states[index.min(count)..].fill(to);
+    }
+    states
+}
+
+/// Makes a flag in each stretch what it becomes behind it: an edge that was late is where it belongs, and one that was not there is none.
+fn take_out_of_flag(track: &mut Track, stretches: &[(usize, usize)]) {
+    let count = track.grid.instants.len();
+    let mut states = states(track.initial, track.edges.iter().map(|edge| (edge.index, edge.to)), count);
+    for (from, to) in stretches {
+        let behind = states.get(to + 1).or(states.get(*to)).copied().unwrap_or(0.0);
+        states[*from..(to + 1).min(count)].fill(behind);
+    }
+    let mut before = track.initial;
+    track.edges.clear();
+    for (index, state) in states.into_iter().enumerate().skip(track.first) {
+        if state != before {
+            track.edges.push(Edge { index, to: state });
+            before = state;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::gap::{Floor, Grid};
+
+    fn track(values: Vec<f64>) -> Track {
+        Track {
+            grid: Arc::new(Grid::of_steps(0.01, 0.01 * values.len() as f64)),
+            first: 0,
+            values,
+            initial: 0.0,
+            edges: Vec::new(),
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind: Vec::new(),
+        }
+    }
+
+    fn read(values: Vec<f64>, predicted: &[f64], law: Law) -> (Option<()>, Reading) {
+        let floor = Floor { step: 0.01, noise: 0.01, ..Floor::default() };
+        let mut reading = Reading::default();
+        (reading.level(&track(values), predicted, 0.0, &floor, law), reading)
+    }
+
+    /// A level that climbs by a step a cycle; samples 20 to 29 and 60 to 69 are away.
+    #[test]
+    fn what_reads_nothing_for_whole_windows_is_away() {
+        let predicted: Vec<f64> = (0..100).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
+        let is_away = |k: usize| (20..30).contains(&k) || (60..70).contains(&k);
+        let values = predicted.iter().enumerate().map(|(k, x)| if is_away(k) { 0.0 } else { *x }).collect();
+        let (fits, reading) = read(values, &predicted, Law::Away);
+        assert!(fits.is_some());
+        assert_eq!(reading.stretches, [vec![(20, 29), (60, 69)]]);
+        let (value, [least, most]) = reading.window();
+        assert!((value - 0.1).abs() < 1e-9 && least < 0.1 && most > 0.1);
+    }
+
+    /// Every fifth report brings what the one before it brought.
+    #[test]
+    fn what_repeats_the_report_before_was_lost() {
+        let predicted: Vec<f64> = (0..100).map(|k| 0.3 * f64::from(k)).collect();
+        let values = (0..100).map(|k| predicted[if k % 5 == 4 { k - 1 } else { k }]).collect();
+        let (fits, reading) = read(values, &predicted, Law::Lost);
+        assert!(fits.is_some());
+        assert_eq!((reading.drawn, reading.stretches[0].len()), (20, 20));
+        let (least, share, most) = reading.share();
+        assert!(least < 0.2 && most > 0.2 && (share - 0.2).abs() < 0.01, "{least} {share} {most}");
+    }
+
+    /// A level that is a tenth too low is neither.
+    #[test]
+    fn what_is_neither_fits_no_law() {
+        let predicted: Vec<f64> = (0..100).map(|k| 1.0 + 0.3 * f64::from(k)).collect();
+        let low = || predicted.iter().map(|x| 0.9 * x).collect::<Vec<f64>>();
+        assert!(read(low(), &predicted, Law::Away).0.is_none());
+        assert!(read(low(), &predicted, Law::Lost).0.is_none());
+    }
+
+    /// Of a flag that goes up at 10 and down at 50, and is away from 20 to 29, nothing but its two edges is left.
+    #[test]
+    fn a_flag_is_mended_where_it_was_away() {
+        let mut flag = track(Vec::new());
+        flag.grid = Arc::new(Grid::of_steps(0.01, 0.99));
+        flag.edges = [(10, 1.0), (20, 0.0), (30, 1.0), (50, 0.0)].map(|(index, to)| Edge { index, to }).to_vec();
+        take_out_of_flag(&mut flag, &[(20, 29)]);
+        assert_eq!(flag.edges, [(10, 1.0), (50, 0.0)].map(|(index, to)| Edge { index, to }));
+    }
+}

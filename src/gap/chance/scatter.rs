@@ -1,0 +1,63 @@
+//! A sensor that scatters: its noise, in the steps that it is reported in, beside that of all other levels of the machine.
+
+use super::{Chance, candidate};
+use crate::gap::Study;
+use crate::gap::cause::Bounds;
+use crate::gap::statistics::quantile;
+use crate::plant::EffectPlace;
+
+/// How many times more steps than those of the others a noise must be.
+const MUCH: f64 = 10.0;
+/// A noise below this many steps is none.
+const LEAST: f64 = 0.3;
+/// How many other levels there must be.
+const OTHERS: usize = 3;
+/// How well a standard deviation of noise that remembers is known beside what its samples say, as a share.
+const UNSURE: f64 = 0.06;
+
+/// The level of the device at `place` that scatters far more than all others do.
+pub(super) fn find(place: usize, study: &Study) -> Option<Chance> {
+    let subject = &study.subjects[place];
+    let steps: Vec<(usize, usize, f64)> = study
+        .subjects
+        .iter()
+        .enumerate()
+        .flat_map(|(at, subject)| (0..subject.signals.len()).map(move |signal| (at, signal)))
+        .filter_map(|(at, signal)| Some((at, signal, in_steps(study, at, signal)?)))
+        .collect();
+    let own = steps.iter().filter(|(at, ..)| *at == place);
+    let &(_, signal, noise) = own.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let others: Vec<f64> = steps.iter().filter(|of| (of.0, of.1) != (place, signal)).map(|of| of.2).collect();
+    if others.len() < OTHERS || noise < MUCH * quantile(&others, 0.5).max(LEAST) {
+        return None;
+    }
+    let runs = || subject.runs.iter().filter(|run| run.tracks[signal].is_some());
+    let usual = quantile(&others, 0.5);
+    let variances = runs().map(|run| run.floors[signal].noise.powi(2) - (usual * run.floors[signal].step).powi(2));
+    let sigma = (variances.sum::<f64>() / runs().count().max(1) as f64).max(0.0).sqrt();
+    let count: f64 = runs()
+        .filter_map(|run| Some(run.tracks[signal].as_ref()?.values.len() as f64 * run.floors[signal].share()))
+        .sum();
+    let off = 1.96 * (0.5 / count.max(1.0)).sqrt().hypot(UNSURE / 1.96);
+    let bounds =
+        vec![Bounds { value: sigma, interval: [sigma * (1.0 - off), sigma * (1.0 + off)], is_identifiable: true }];
+    let component = Some(subject.signals[signal].property.clone());
+    let candidate = candidate("noise", EffectPlace::Sensor, component, &["sigma"], &bounds)?;
+    let misfit = count * (noise / usual.max(LEAST)).powi(2);
+    let (subject, bare) = (subject.clone(), study.bare[place].clone());
+    Some(Chance { candidate, bounds, subject, bare, misfit, law: None, signals: vec![signal] })
+}
+
+/// The noise of a level in its steps: the least of its recordings; `None` of what is no level, or does not move.
+fn in_steps(study: &Study, at: usize, signal: usize) -> Option<f64> {
+    let subject = &study.subjects[at];
+    if subject.signals[signal].is_count {
+        return None;
+    }
+    let of = |run: &crate::gap::Run| {
+        let track = run.tracks[signal].as_ref().filter(|track| track.values.windows(2).any(|two| two[0] != two[1]))?;
+        let floor = run.floors[signal];
+        (track.values.len() > 100 && floor.step > 0.0).then(|| floor.noise / floor.step)
+    };
+    subject.runs.iter().filter_map(of).min_by(f64::total_cmp)
+}
