@@ -359,7 +359,7 @@ mod tests {
 
     fn read(values: Vec<f64>, predicted: &[f64], law: Law) -> (Option<()>, Reading) {
         let floor = Floor { step: 0.01, noise: 0.01, ..Floor::default() };
-        let mut reading = Reading::default();
+        let mut reading = Reading { cycle: 0.01, ..Reading::default() };
         (reading.level(&track(values), predicted, 0.0, &floor, law), reading)
     }
 
