@@ -1,6 +1,7 @@
 //! What is left after the best answer: whether it still depends on something, and on what.
 
 use super::bench::{Bench, Trial};
+use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Standing};
 use crate::gap::fit::Range;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
@@ -26,8 +27,10 @@ const GAINS: f64 = 8.0;
 /// What share of the gap's squares may be left of one that is explained. (Plants with equations of their own leave 0.003 and less where the
 /// named effect is the true one, and 0.02 and more where it is none of the library.)
 const LEAST_SHARE: f64 = 0.01;
-/// The same where a friction is named: real ones bend before they let go, which no law of the library does.
-const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.05;
+/// The same where friction or play is named: real ones bend before they let go, which no law of the library does. (Two joints of a real
+/// arm leave 0.03 to 0.1 beside their play.)
+const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.12;
+const PLAY: [&str; 3] = ["backlash", "dead-band", "hysteresis"];
 /// How much of a floor's cost is uncertain because its noise is an estimate.
 const FLOOR_UNCERTAINTY: f64 = 0.06;
 
@@ -66,7 +69,9 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let is_beyond = |left: f64, variance: f64| left > 18.0 * best.inflation() && left > 5.0 * variance.sqrt();
     // Late edges of one signal drown in what thousands of samples of a level cost less than their floor.
     let Standing { worst, above, .. } = Standing::of(&score);
-    let is_friction = best.set.iter().any(|candidate| candidate.place == EffectPlace::Mechanics);
+    let sticks =
+        |candidate: &Candidate| candidate.place == EffectPlace::Mechanics || PLAY.contains(&candidate.effect.id);
+    let is_friction = best.set.iter().any(sticks);
     let is_large = share > if is_friction { LEAST_SHARE_BESIDE_FRICTION } else { LEAST_SHARE }
         && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1));
     let mut depends = dependences(bench, &prediction, &score);
