@@ -7,7 +7,7 @@ use super::scales::Scales;
 use super::starts::{self, Clues};
 use crate::effect::{self, Build, EFFECTS, EffectDescriptor};
 use crate::gap::fit::Range;
-use crate::gap::{Prediction, Score, Subject};
+use crate::gap::{Predicted, Prediction, Score, Subject};
 use crate::plant::{EffectPlace, ParameterValue};
 use crate::prototype::kind::{ParameterType, PortType};
 use crate::signal_map::Direction;
@@ -85,8 +85,24 @@ impl Library<'_> {
         let places = effect.places.iter();
         places
             .flat_map(|&place| self.components(place).into_iter().map(move |component| (place, component)))
+            .filter(|(_, component)| effect.id != "offset" || !self.counts_from_nothing(*component))
             .flat_map(|(place, component)| self.variants(effect, place, component))
             .collect()
+    }
+
+    /// Whether a signal is a counter that began where it is predicted to: an offset would be there from the start.
+    fn counts_from_nothing(&self, component: Option<&str>) -> bool {
+        let is_meant =
+            |info: &&(usize, &crate::gap::SignalInfo)| info.1.is_count && Some(info.1.property.as_str()) == component;
+        let begins = |signal: usize| {
+            let runs = self.subject.runs.iter().zip(&self.nominal.runs);
+            runs.filter_map(|(run, predicted)| match (&run.tracks[signal], &predicted[signal]) {
+                (Some(track), Predicted::Level(values)) => Some((*track.values.first()?, *values.first()?)),
+                _ => None,
+            })
+            .all(|(recorded, predicted)| (recorded + 0.5 - predicted).abs() <= 1.0)
+        };
+        self.subject.signals.iter().enumerate().find(|info| is_meant(&info)).is_some_and(|(signal, _)| begins(signal))
     }
 
     /// What an effect at a place may act on.

@@ -1,9 +1,9 @@
 //! A sensor that scatters: its noise, in the steps that it is reported in, beside that of all other levels of the machine.
 
 use super::{Chance, candidate};
-use crate::gap::Study;
 use crate::gap::cause::Bounds;
 use crate::gap::statistics::quantile;
+use crate::gap::{Predicted, Run, Study};
 use crate::plant::EffectPlace;
 
 /// How many times more steps than those of the others a noise must be.
@@ -12,6 +12,8 @@ const MUCH: f64 = 10.0;
 const LEAST: f64 = 0.3;
 /// How many other levels there must be.
 const OTHERS: usize = 3;
+/// What moves by less than this share of its noise rests.
+const STILL: f64 = 0.05;
 /// How well a standard deviation of noise that remembers is known beside what its samples say, as a share.
 const UNSURE: f64 = 0.06;
 
@@ -54,10 +56,37 @@ fn in_steps(study: &Study, at: usize, signal: usize) -> Option<f64> {
     if subject.signals[signal].is_count {
         return None;
     }
-    let of = |run: &crate::gap::Run| {
+    let of = |(run, predicted): (&Run, &Vec<Predicted>)| {
+        let Predicted::Level(predicted) = &predicted[signal] else { return None };
         let track = run.tracks[signal].as_ref().filter(|track| track.values.windows(2).any(|two| two[0] != two[1]))?;
         let floor = run.floors[signal];
-        (track.values.len() > 100 && floor.step > 0.0).then(|| floor.noise / floor.step)
+        // What a law gets wrong in motion looks like noise there, and not at rest.
+        let noise = floor.noise.min(at_rest(&track.values, predicted, STILL * floor.noise.max(floor.step))?);
+        (track.values.len() > 100 && floor.step > 0.0).then(|| noise / floor.step)
     };
-    subject.runs.iter().filter_map(of).min_by(f64::total_cmp)
+    subject.runs.iter().zip(&study.bare[at].prediction.runs).filter_map(of).min_by(f64::total_cmp)
+}
+
+/// The noise of samples where the prediction moves by less than `still`, by the median of what one differs from the next, which nothing that
+/// settles moves; `None` where too few rest.
+fn at_rest(values: &[f64], predicted: &[f64], still: f64) -> Option<f64> {
+    const ENOUGH: usize = 40;
+    let pairs = values.windows(2).zip(predicted.windows(2)).filter(|(_, law)| (law[1] - law[0]).abs() < still);
+    let differences: Vec<f64> = pairs.map(|(two, _)| (two[1] - two[0]).abs()).collect();
+    (differences.len() >= ENOUGH).then(|| 1.4826 * quantile(&differences, 0.5) / std::f64::consts::SQRT_2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Differences of one unit with either sign: what moves says nothing.
+    #[test]
+    fn noise_is_what_scatters_at_rest() {
+        let predicted: Vec<f64> = (0..200).map(|k| if k > 100 { 50.0 * f64::from(k) } else { 0.0 }).collect();
+        let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + (k % 2) as f64).collect();
+        let noise = at_rest(&values, &predicted, 0.1).expect("enough rests");
+        assert!((noise - 1.4826 / std::f64::consts::SQRT_2).abs() < 1e-12);
+        assert_eq!(at_rest(&values[101..], &predicted[101..], 0.1), None);
+    }
 }
