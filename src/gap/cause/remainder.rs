@@ -24,11 +24,11 @@ const MONOTONE: f64 = 0.85;
 const CHANGES_SURELY: f64 = 0.08;
 const MONOTONE_SURELY: f64 = 0.7;
 const GAINS: f64 = 8.0;
-/// What share of the gap's squares may be left of one that is explained. (Plants with equations of their own leave 0.003 and less where the
-/// named effect is the true one, and 0.02 and more where it is none of the library.)
+/// What share of the gap's squares may be left of one that is explained. (Plants with equations of their own left 0.002 and less in most
+/// cases where the named effect was the true one, and 0.015 and more where it was none of the library.)
 const LEAST_SHARE: f64 = 0.01;
-/// The same where friction or play is named: real ones bend before they let go, which no law of the library does. (Two joints of a real
-/// arm leave 0.03 to 0.1 beside their play.)
+/// The same where friction or play is named: real ones bend before they let go, which no law of the library does. (By the
+/// figures of docs/gap-on-real-data.md two joints of a real arm leave 0.005 to 0.12 of their position's squares.)
 const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.12;
 const PLAY: [&str; 3] = ["backlash", "dead-band", "hysteresis"];
 /// How much of a floor's cost is uncertain because its noise is an estimate.
