@@ -31,6 +31,8 @@ const LEAST_STRETCHES: usize = 3;
 const MOST_DRAWN: f64 = 0.9;
 /// In which share of pairs of a late edge and one on time the late one may have been due sooner.
 const SOONER: f64 = 0.75;
+/// By how many standard deviations the shares of falls and of rises that are late may differ.
+const ALIKE: f64 = 2.5;
 /// How many edges of a flag that is late by whole cycles.
 const LEAST_EDGES: usize = 3;
 /// Which share of its edges may come a cycle early, by parameters that are not known better.
@@ -90,7 +92,7 @@ impl Reading {
                         edges.iter().map(|edge| (edge.at, edge.index, edge.to)).collect();
                     match law {
                         Law::Away => all.flag_away(track, *initial, &edges)?,
-                        Law::Lost => all.flag_late(track, &edges, sigma)?,
+                        Law::Lost => all.flag_late(track, &edges, sigma, is_known)?,
                     }
                 }
                 _ => all.stretches.push(Vec::new()),
@@ -209,7 +211,8 @@ impl Reading {
     }
 
     /// A flag some of whose edges are late by whole cycles, and none is early.
-    fn flag_late(&mut self, track: &Track, predicted: &[(f64, usize, f64)], sigma: f64) -> Option<()> {
+    /// Where the link is known to lose reports, a few edges need not show that it is by chance.
+    fn flag_late(&mut self, track: &Track, predicted: &[(f64, usize, f64)], sigma: f64, is_known: bool) -> Option<()> {
         // A pulse of which both edges got lost was never seen: the shortest are.
         let mut foreseen = predicted.to_vec();
         let mut late = Vec::new();
@@ -242,23 +245,7 @@ impl Reading {
         if early as f64 > EARLY * foreseen.len() as f64 {
             return None;
         }
-        // Whether a message gets lost does not depend on how soon it is due; what is late by a part of a cycle shows where it was due soon.
-        let is_by_chance = |side: usize| {
-            let (late, on_time) = (&room_of_late[side], &room[side]);
-            late.is_empty() || !on_time.is_empty() && sooner(late, on_time) < SOONER
-        };
-        if !is_by_chance(0) || !is_by_chance(1) {
-            return None;
-        }
-        // It befalls both what comes and what goes.
-        let shares = [0, 1].map(|side| {
-            let late = room_of_late[side].len() as f64;
-            late / (late + room[side].len() as f64).max(1.0)
-        });
-        let counts = [0, 1].map(|side| (room[side].len() + room_of_late[side].len()) as f64);
-        let mean = (shares[0] * counts[0] + shares[1] * counts[1]) / (counts[0] + counts[1]).max(1.0);
-        let deviation = (mean * (1.0 - mean) * (1.0 / counts[0].max(1.0) + 1.0 / counts[1].max(1.0))).sqrt();
-        if (shares[0] - shares[1]).abs() > 2.5 * deviation.max(1e-9) {
+        if !is_known && !is_by_chance(&room, &room_of_late) {
             return None;
         }
         self.telling += predicted.len();
@@ -322,6 +309,20 @@ impl Reading {
 /// How far from what it should be a sample may lie.
 fn gate(floor: &crate::gap::Floor, slope: f64) -> f64 {
     GATE * floor.sigma(slope) + floor.step
+}
+
+/// Whether edges that came late are no others than those on time: by how long before a look each came, falls and rises apart. Whether a
+/// message gets lost does not depend on how soon it is due; what is late by a part of a cycle shows where it was due soon. And it
+/// befalls both what comes and what goes.
+fn is_by_chance(on_time: &[Vec<f64>; 2], late: &[Vec<f64>; 2]) -> bool {
+    let is_alike = |side: usize| {
+        late[side].is_empty() || !on_time[side].is_empty() && sooner(&late[side], &on_time[side]) < SOONER
+    };
+    let counts = [0, 1].map(|side| (on_time[side].len() + late[side].len()).max(1) as f64);
+    let shares = [0, 1].map(|side| late[side].len() as f64 / counts[side]);
+    let mean = (shares[0] * counts[0] + shares[1] * counts[1]) / (counts[0] + counts[1]);
+    let deviation = (mean * (1.0 - mean) * (1.0 / counts[0] + 1.0 / counts[1])).sqrt();
+    is_alike(0) && is_alike(1) && (shares[0] - shares[1]).abs() <= ALIKE * deviation.max(1e-9)
 }
 
 /// In which share of all pairs the one of `these` is the smaller: a half where both are drawn alike (H. B. Mann, D. R. Whitney, Ann. Math.
@@ -444,7 +445,7 @@ mod tests {
                 predicted.push((0.01 * (index as f64 - share), index, to));
                 flag.edges.push(Edge { index: index + usize::from(is_late(k, share)), to });
             }
-            Reading::default().flag_late(&flag, &predicted, 1e-4)
+            Reading::default().flag_late(&flag, &predicted, 1e-4, false)
         };
         assert!(read(&|_, share| share < 0.3).is_none());
         assert!(read(&|k, _| k % 5 == 0).is_some());
