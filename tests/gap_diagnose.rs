@@ -4,6 +4,7 @@
 
 use std::fs::File;
 use std::io::BufReader;
+use std::process::Command;
 use std::time::Duration;
 
 use kinetwin::gap::Recording;
@@ -177,4 +178,27 @@ fn a_search_that_is_ended_at_once_says_so() {
     let options = Options { is_asked: &|_| true, is_meant: &|_| true, is_stopped: &|| true, tell: &|_| {} };
     let answer = diagnose(&plant, &train, &train, &options).expect("a diagnosis");
     assert!(answer.report.incomplete);
+}
+
+/// The time that a process is given counts from its start.
+#[test]
+fn a_search_that_is_given_a_moment_ends_with_what_it_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("gap");
+    let case = "../shared/data/rig-sample/case-03";
+    let ended = Command::new(env!("CARGO_BIN_EXE_kinetwin"))
+        .args(["gap", "diagnose", "--model", "models/rig", "--within", "1ms", "--train"])
+        .arg(format!("{case}/train.cps.jsonl.zst"))
+        .arg("--holdout")
+        .arg(format!("{case}/holdout.cps.jsonl.zst"))
+        .arg("--out")
+        .arg(&out)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .expect("kinetwin starts");
+    let said = String::from_utf8_lossy(&ended.stdout);
+    assert!(ended.status.success() && said.lines().any(|line| line.ends_with("(incomplete)")), "{said}");
+    let text = std::fs::read_to_string(out.join("report.json")).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["incomplete"], true);
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -54,6 +54,9 @@ pub struct DiagnoseArguments {
     /// For manual operation, jams and emergency stops, which are no evidence of how the machine works.
     #[arg(long, value_name = "[TRACE=]FILE")]
     pub mask: Vec<String>,
+    /// Ends after this long with the best answer so far, marked incomplete; what was begun by then is brought to its end
+    #[arg(long, value_name = "TIME", value_parser = crate::time::parse_duration)]
+    pub within: Option<Duration>,
     /// The folder for report.json, report.html and effects.xml; what stands there under these names is replaced
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -73,6 +76,7 @@ Exit codes:
 
 /// Does what was asked.
 pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
+    let started = Instant::now();
     let plant = model::load(&arguments.model)?;
     let effects = asked(&arguments.effects)?;
     let devices = meant(&plant, &arguments.devices)?;
@@ -102,7 +106,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<Answer, Failure> {
     let options = Options {
         is_asked: &|id| effects.as_ref().is_none_or(|asked| asked.iter().any(|effect| effect == id)),
         is_meant: &|name| devices.as_ref().is_none_or(|meant| meant.iter().any(|device| device == name)),
-        is_stopped: &|| interruption.is_asked(),
+        is_stopped: &|| interruption.is_asked() || arguments.within.is_some_and(|within| started.elapsed() > within),
         tell: &|progress| show(&bar, progress),
     };
     let mut answer = diagnosis::diagnose(&plant, &train, &held_out, &options).map_err(|error| Failure::of(&error))?;

@@ -35,7 +35,7 @@ pub struct ExamArguments {
     /// Keeps the reports that an interrupted exam has written
     #[arg(long)]
     pub resume: bool,
-    /// A case that takes longer has no verdict
+    /// A case that takes longer has no verdict; from two thirds of it on it answers with the best that it has so far
     #[arg(long, value_name = "TIME", value_parser = crate::time::parse_duration)]
     pub timeout: Option<Duration>,
     /// The key of the answers [default: DIR.key]
@@ -47,6 +47,13 @@ pub struct ExamArguments {
     /// Prints the rates as one JSON object on standard output, and nothing else there
     #[arg(long)]
     pub json: bool,
+}
+
+impl ExamArguments {
+    /// When a case is asked for the best answer so far: what it then brings to its end takes a while.
+    fn within(&self) -> Option<Duration> {
+        self.timeout.map(|timeout| timeout * 2 / 3)
+    }
 }
 
 const HELP: &str = "\
@@ -119,13 +126,20 @@ fn answered(folder: &Path) -> &'static str {
     if folder.join(REPORT).exists() && !folder.join(FAILED).exists() { REPORT } else { FAILED }
 }
 
-/// A report that needs no further diagnosis.
-fn is_done(folder: &Path) -> bool {
-    read(folder).is_ok_and(|report| !report.incomplete) && !folder.join(FAILED).exists()
+/// A report that needs no further diagnosis: incomplete only because its time was up, and not because it was interrupted.
+fn is_done(arguments: &ExamArguments, folder: &Path) -> bool {
+    let had_its_time =
+        || arguments.within().zip(seconds(folder)).is_some_and(|(within, took)| took >= within.as_secs_f64());
+    read(folder).is_ok_and(|report| !report.incomplete || had_its_time()) && !folder.join(FAILED).exists()
+}
+
+/// How long a case took.
+fn seconds(folder: &Path) -> Option<f64> {
+    std::fs::read_to_string(folder.join(SECONDS)).ok()?.trim().parse().ok()
 }
 
 fn diagnose_all(arguments: &ExamArguments, out: &Path, cases: &[String]) -> Result<(), Failure> {
-    let left: Vec<&String> = cases.iter().filter(|case| !is_done(&out.join(case))).collect();
+    let left: Vec<&String> = cases.iter().filter(|case| !is_done(arguments, &out.join(case))).collect();
     side_by_side(arguments, &left, &|case| {
         diagnose(arguments, &arguments.folder.join(case), &out.join(case), None)?;
         words::tell(format!("{case}: {}", answered(&out.join(case))));
@@ -141,7 +155,7 @@ const ORACLE: &str = "oracle";
 fn ask_oracles(arguments: &ExamArguments, out: &Path, answers: &[exam::Answer]) -> Result<(), Failure> {
     let is_left = |answer: &&exam::Answer| {
         let folder = out.join(&answer.case);
-        answer.has_an_oracle() && is_done(&folder) && !is_done(&folder.join(ORACLE))
+        answer.has_an_oracle() && is_done(arguments, &folder) && !is_done(arguments, &folder.join(ORACLE))
     };
     let left: Vec<&exam::Answer> = answers.iter().filter(is_left).collect();
     side_by_side(arguments, &left, &|answer| {
@@ -191,7 +205,7 @@ fn diagnose(
     let end = diagnosed(arguments, case, out, told);
     std::fs::write(out.join(SECONDS), format!("{:.3}\n", started.elapsed().as_secs_f64()))?;
     let why = match end.and_then(|()| read(out)) {
-        Ok(report) if !report.incomplete => return Ok(()),
+        Ok(_) if is_done(arguments, out) => return Ok(()),
         Ok(_) => "it was interrupted".to_owned(),
         Err(why) => why,
     };
@@ -223,6 +237,7 @@ fn diagnosed(
         .arg(trace("holdout"))
         .arg("--out")
         .arg(out)
+        .args(arguments.within().iter().flat_map(|within| ["--within".to_owned(), format!("{}ms", within.as_millis())]))
         .args(told.iter().flat_map(|told| ["--effects", &told.effect, "--devices", &told.device]))
         .env("RAYON_NUM_THREADS", (cores / arguments.jobs.max(1)).max(1).to_string())
         .stdout(Stdio::null())
@@ -263,7 +278,7 @@ fn score(out: &Path, cases: &[String], answers: &[exam::Answer]) -> (Vec<Judged>
             failed.insert(case.clone(), "the sealed answers hold none for it".to_owned());
             continue;
         };
-        let seconds = std::fs::read_to_string(folder.join(SECONDS)).ok().and_then(|text| text.trim().parse().ok());
+        let seconds = seconds(&folder);
         let report = match std::fs::read_to_string(folder.join(FAILED)) {
             Ok(why) => Err(why.trim().to_owned()),
             Err(_) => read(&folder),
@@ -337,4 +352,42 @@ fn text(exam: &Exam) -> String {
 fn today() -> String {
     let seconds = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
     date_and_time(seconds).split('T').next().unwrap_or_default().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::gap::report::Verdict;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: ExamArguments,
+    }
+
+    /// An incomplete report is an answer if the case had its time, and is asked for again if someone interrupted it.
+    #[test]
+    fn a_report_that_had_its_time_is_done() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+        let of = |line: &[&str]| Line::parse_from([&["exam", "short"], line].concat()).arguments;
+        let (bounded, free) = (of(&["--timeout", "60s"]), of(&[]));
+        let mut report = Report::new(Verdict::NoGap);
+        assert_eq!(report.flaws(), Vec::<String>::new());
+        report.incomplete = true;
+        write(REPORT, &report.to_json());
+        let is_done = |seconds: &str| {
+            write(SECONDS, seconds);
+            [&bounded, &free].map(|arguments| is_done(arguments, folder.path()))
+        };
+        assert_eq!(is_done("41.5\n"), [true, false]);
+        assert_eq!(is_done("39.0\n"), [false, false]);
+        report.incomplete = false;
+        write(REPORT, &report.to_json());
+        assert!(super::is_done(&free, folder.path()));
+        write(FAILED, "it was interrupted\n");
+        assert!(!super::is_done(&free, folder.path()));
+    }
 }

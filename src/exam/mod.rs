@@ -17,4 +17,4 @@ pub use answer::{Answer, AnswersError, ClassMember, Magnitude, Sort, TrueEffect,
 pub use floor::Floor;
 pub use judge::{Judged, judge, unanswered};
 pub use page::page;
-pub use rates::{Exam, Rate, Rates, Spread, wilson};
+pub use rates::{Exam, Rate, Rates, Spread};

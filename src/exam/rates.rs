@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::{Magnitude, Sort};
 use super::judge::Judged;
+use crate::gap::statistics::wilson;
 
 /// A share of cases, or a mean over them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -29,18 +30,8 @@ impl Rate {
         if n == 0 {
             return Rate::default();
         }
-        Rate { value: Some(yes as f64 / n as f64), n, ci95: Some(wilson(yes, n)) }
+        Rate { value: Some(yes as f64 / n as f64), n, ci95: Some(wilson(yes as f64, n as f64)) }
     }
-}
-
-/// The interval that holds a share with 95 %, `yes` of `n` having been seen, n > 0 (E. B. Wilson, J. Am. Stat. Assoc. 22, 1927).
-pub fn wilson(yes: usize, n: usize) -> [f64; 2] {
-    let z = 1.959_963_984_540_054;
-    let (n, p) = (n as f64, yes as f64 / n as f64);
-    let centre = p + z * z / (2.0 * n);
-    let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-    let scale = 1.0 + z * z / n;
-    [((centre - half) / scale).max(0.0), ((centre + half) / scale).min(1.0)]
 }
 
 /// The rates that have targets, at magnitudes clear and gross.

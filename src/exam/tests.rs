@@ -107,15 +107,6 @@ fn what_nobody_has_to_know_is_wrong_only_where_it_is_answered_surely() {
 }
 
 #[test]
-fn wilsons_interval_is_the_one_of_the_books() {
-    // 8 of 10: 0.4902 to 0.9433 (E. B. Wilson's formula, by hand).
-    let [low, high] = wilson(8, 10);
-    assert!((low - 0.4902).abs() < 1e-4 && (high - 0.9433).abs() < 1e-4, "{low} {high}");
-    let [low, high] = wilson(0, 20);
-    assert!(low == 0.0 && (high - 0.1611).abs() < 1e-4, "{high}");
-}
-
-#[test]
 fn rates_count_what_they_are_about() {
     let none = |case: &str| answer(case, Sort::None, Magnitude::None, Vec::new());
     let outside = answer("3", Sort::Outside, Magnitude::Clear, vec![truth("Axis", "x-cogs", "mechanics")]);

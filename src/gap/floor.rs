@@ -23,6 +23,8 @@ pub struct Floor {
     pub misfit: f64,
 }
 
+/// How much of a floor's cost is uncertain because its noise is an estimate.
+pub(super) const FLOOR_UNCERTAINTY: f64 = 0.06;
 /// Of a step, how much of it is taken for noise at least: far less does not show.
 const LEAST_NOISE: f64 = 0.2;
 /// Of a signal's range, what nothing is claimed about.

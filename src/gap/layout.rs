@@ -11,7 +11,7 @@ use super::track::Track;
 use crate::device::{Belt, Place, Plate, Role, Surface as DeviceSurface, Transfer};
 use crate::effect::EffectError;
 use crate::kinematics::{Along, DPose3, DVec2, DVec3, Shape, Surface, Upright};
-use crate::plant::{Plant, Pose};
+use crate::plant::{ParameterValue, Plant, Pose};
 
 /// What lies about a belt in one run.
 #[derive(Clone, Debug, Default)]
@@ -19,6 +19,29 @@ pub(super) struct Beside {
     pub lane: Arc<Lane>,
     /// Spans in which a plate may take a part out of a beam, s, by beam.
     pub hands: [Vec<(f64, f64)>; 2],
+    /// The one bay that puts parts on it.
+    pub fed: Option<Fed>,
+    /// How far it went by its own report, or, where it has none, by its commands.
+    pub way: Option<Way>,
+}
+
+/// A bay that puts parts on a belt.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fed {
+    /// Where it puts their middles, m from the belt's start.
+    pub at: f64,
+    /// How long they are along the belt, m.
+    pub length: f64,
+}
+
+impl Fed {
+    /// When it put a part whose front was at `front` at `until`, s, the belt having gone so far; `None` of one that it cannot have put.
+    pub fn put(&self, front: f64, until: f64, (instants, ways): &Way) -> Option<f64> {
+        let went = front - self.at - 0.5 * self.length;
+        let here = instants.partition_point(|at| *at <= until).checked_sub(1)?;
+        let before = (0..here).rev().find(|at| ways[here] - ways[*at] >= went)?;
+        (went > 0.0).then(|| instants[before])
+    }
 }
 
 /// The belts and plates of a plant, by their subjects.
@@ -27,6 +50,8 @@ pub(super) struct Layout {
     plates: Vec<(usize, DPose3, Plate, f64)>,
     /// Belts by their instances' names, and at which end a bay takes what comes.
     taken: Vec<(String, bool)>,
+    /// Belts by their instances' names; where a bay puts the middles of its parts, m from their start, and how long those are.
+    fed: Vec<(String, [f64; 2])>,
 }
 
 /// A belt where it stands.
@@ -42,7 +67,7 @@ const GAPS_M: [f64; 4] = [0.01, 0.05, 0.10, 0.15];
 impl Layout {
     /// That of a plant.
     pub fn new(plant: &Plant, subjects: &[Subject]) -> Result<Layout, EffectError> {
-        let mut layout = Layout { belts: Vec::new(), plates: Vec::new(), taken: bays(plant) };
+        let mut layout = Layout { belts: Vec::new(), plates: Vec::new(), taken: bays(plant), fed: feeds(plant) };
         for (at, subject) in subjects.iter().enumerate() {
             let device = subject.device(&[], &Overrides::none())?;
             let instance = subject.id.instance(plant);
@@ -79,7 +104,12 @@ impl Layout {
                     shares: standing.belt.transfer == Transfer::Share,
                     ends: [end(false)?, end(true)?],
                 };
-                *beside = Beside { lane: Arc::new(lane), hands: self.hands(subjects, standing, run) };
+                *beside = Beside {
+                    lane: Arc::new(lane),
+                    hands: self.hands(subjects, standing, run),
+                    fed: self.fed(standing),
+                    way: way_of(&subjects[*at], run, 1.0)?,
+                };
             }
         }
         Ok(beside)
@@ -153,6 +183,13 @@ impl Layout {
         })
     }
 
+    /// The bay that feeds a belt, if it is one alone.
+    fn fed(&self, standing: &Standing) -> Option<Fed> {
+        let mut here = self.fed.iter().filter(|(belt, _)| *belt == standing.name);
+        let (Some((_, [at, length])), None) = (here.next(), here.next()) else { return None };
+        Some(Fed { at: *at, length: *length })
+    }
+
     /// When plates were out that reach over the beams of a belt, by beam.
     fn hands(&self, subjects: &[Subject], standing: &Standing, run: usize) -> [Vec<(f64, f64)>; 2] {
         standing.belt.barriers.map(|beam| {
@@ -210,6 +247,18 @@ fn bays(plant: &Plant) -> Vec<(String, bool)> {
     taken.collect()
 }
 
+/// The belts that bays put parts on: where their middles, and how long they are.
+fn feeds(plant: &Plant) -> Vec<(String, [f64; 2])> {
+    let tasks = plant.instances.iter().flat_map(|instance| &instance.tasks);
+    let sources = tasks.filter(|task| task.kind.name == "kinetwin.LoadingBay");
+    let put = sources.filter_map(|task| {
+        let parameters = &task.parameters;
+        let ParameterValue::Numbers(size) = &parameters.0.get("size")?.value else { return None };
+        Some((parameters.text("belt").to_owned(), [parameters.number("at"), *size.first()?]))
+    });
+    put.collect()
+}
+
 fn shape(surface: &DeviceSurface) -> Shape {
     match *surface {
         DeviceSurface::Straight { length, width } => Shape::Straight { length, width },
@@ -223,7 +272,7 @@ fn barrier(subject: &Subject, run: usize, beam: usize) -> Option<&Track> {
 }
 
 /// Instants, s, and how far a belt has gone by each, m.
-type Way = (Vec<f64>, Vec<f64>);
+pub(super) type Way = (Vec<f64>, Vec<f64>);
 
 /// How far a belt went by its own report of its speed, or, where it has none, by its commands; times `sign`.
 fn way_of(subject: &Subject, run: usize, sign: f64) -> Result<Option<Way>, EffectError> {

@@ -13,7 +13,7 @@
 
 use serde::Serialize;
 
-use super::floor::Floor;
+use super::floor::{FLOOR_UNCERTAINTY, Floor};
 use super::prediction::{Predicted, Prediction};
 use super::regimes::regimes;
 use super::report::Regime;
@@ -26,8 +26,6 @@ use crate::signal_map::Kind;
 
 /// A statistic above this is no chance: χ² with one degree of freedom at 1 % over 400 tests.
 pub const THRESHOLD: f64 = 17.8;
-/// How much of a floor's cost is uncertain because its noise is an estimate.
-const FLOOR_UNCERTAINTY: f64 = 0.06;
 /// What moves by less than this share of a step says nothing of a device.
 const LEAST_OF_STEP: f64 = 0.1;
 

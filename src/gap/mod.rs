@@ -54,6 +54,7 @@ mod restarts;
 mod samples;
 mod score;
 mod silence;
+mod stamps;
 pub mod statistics;
 mod study;
 mod subject;

@@ -15,6 +15,7 @@ use super::overrides::Overrides;
 use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
 use super::score::{Score, SignalScore};
+use super::stamps;
 use super::subject::{Subject, Timing};
 use super::surroundings::{self, Sizes};
 use super::task::{self, Task};
@@ -232,6 +233,7 @@ fn find_task(
             subject.set_tick(run, 0.0, 0.0);
             subject.set_task(run, task);
         });
+        find_timing(subjects, run)?;
         return Ok(Some(task.every_s));
     }
     let found = if main.is_rebuilt { task::find(subjects, run, main.cycle)? } else { None };
@@ -241,9 +243,10 @@ fn find_task(
             subject.set_task(run, task);
         });
     }
-    let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
-    let each = subjects.par_iter().zip(&nominal).with_max_len(1);
-    let bare: Vec<Bare> = each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
+    let bare = match found {
+        Some(_) => find_timing(subjects, run)?,
+        None => within_tolerances(subjects)?,
+    };
     let filter_s = if main.is_rebuilt { filter::find(subjects, &bare, run) } else { 0.0 };
     if filter_s > 0.0 {
         subjects.iter_mut().for_each(|subject| {
@@ -252,6 +255,22 @@ fn find_task(
         });
     }
     Ok(found.map(|task| task.every_s))
+}
+
+/// How far the instants of a run are off once its task is known, which is set in all subjects; each as its tolerances let it stand.
+fn find_timing(subjects: &mut [Subject], run: usize) -> Result<Vec<Bare>, EffectError> {
+    subjects.iter_mut().for_each(|subject| subject.runs[run].timing_s = Some(stamps::UNKNOWN_S));
+    let bare = within_tolerances(subjects)?;
+    let timing_s = stamps::find(subjects, &bare, run);
+    subjects.iter_mut().for_each(|subject| subject.runs[run].timing_s = Some(timing_s));
+    Ok(bare)
+}
+
+/// Every subject as its tolerances let it stand.
+fn within_tolerances(subjects: &mut [Subject]) -> Result<Vec<Bare>, EffectError> {
+    let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
+    let each = subjects.par_iter().zip(&nominal).with_max_len(1);
+    Ok(each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect())
 }
 
 /// The nominal prediction of a subject, and its floors with it.

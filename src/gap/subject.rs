@@ -31,6 +31,8 @@ use crate::trace::Commands;
 
 /// How far a sensor may be off in time where nothing better is known, s.
 const EDGE_SIGMA_S: f64 = 3e-4;
+/// The same of a level whose instants are whole ticks.
+const EXACT_S: f64 = 10e-6;
 /// As near as an edge is known at all: a tick, s.
 pub(super) const LEAST_EDGE_SIGMA_S: f64 = 1e-4;
 
@@ -84,6 +86,8 @@ pub struct Run {
     pub(super) sample_tick: f64,
     /// The task that took commands up, and how late it reports.
     pub(super) task: Task,
+    /// How far its instants are off one by one, standard deviation, s, where its task is known.
+    pub(super) timing_s: Option<f64>,
     /// Parameters of the device that were set up otherwise than the model has them while this was recorded, SI.
     pub settings: BTreeMap<String, f64>,
     /// Where the device is taken up again; `None`: it is replayed in one go from rest.
@@ -154,6 +158,7 @@ impl Subject {
                 commands_first: recording.step().is_some() || is_sampled(recording),
                 sample_tick: 0.0,
                 task: Task::default(),
+                timing_s: None,
                 settings: recording.settings.get(&id).cloned().unwrap_or_default(),
                 restarts: None,
             }
@@ -404,8 +409,9 @@ impl Subject {
     /// Takes the ticks of a run from the one before it.
     pub(super) fn keep_tick(&mut self, run: usize) {
         let before = &self.runs[run - 1];
-        let (sample_tick, task) = (before.sample_tick, before.task);
+        let (sample_tick, task, timing_s) = (before.sample_tick, before.task, before.timing_s);
         self.runs[run].sample_tick = sample_tick;
+        self.runs[run].timing_s = timing_s;
         self.set_task(run, task);
     }
 
@@ -419,11 +425,13 @@ impl Subject {
                     continue;
                 };
                 let is_exact = timing == Timing::Exact || run.sample_tick > 0.0 || run.commands_first;
-                let timing = match is_exact {
-                    true if is_servo && info.property == "force" => 25e-6,
-                    true => 10e-6,
-                    false => 50e-6_f64.hypot(track.grid.spread),
+                let off = match run.timing_s {
+                    _ if is_exact => EXACT_S,
+                    Some(timing_s) => timing_s,
+                    None => 50e-6_f64.hypot(track.grid.spread),
                 };
+                let is_coarse = is_servo && info.property == "force" && (is_exact || run.timing_s.is_some());
+                let timing = if is_coarse { 2.5 * off } else { off };
                 let (recorded, predicted) = track.evident(values);
                 run.floors[signal] = Floor::of(&track.grid, &recorded, &predicted, timing, info.is_count);
                 run.rests[signal] = rests(track, values, run.floors[signal].step);

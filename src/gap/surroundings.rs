@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::alone;
-use super::layout::Beside;
+use super::layout::{Beside, Fed, Way};
 use super::parts::{self, Geometry, Origin};
 use super::subject::{Run, SignalInfo, beam_of};
 use super::track::Track;
@@ -62,7 +62,11 @@ pub(super) fn surround(
                 hands: beside.hands.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
-            of_belt(&geometry, signals, device, run)
+            let mut script = of_belt(&geometry, signals, device, beside.way.as_ref(), run);
+            if let (Some(fed), Some(way)) = (&beside.fed, &beside.way) {
+                script.told = on_their_way(&script, fed, way);
+            }
+            script
         }
         Role::Pushes(_) => of_pusher(signals, run),
         Role::Holds(cups) if !cups.always_sealed => of_gripper(kind, parameters, signals, run),
@@ -113,7 +117,14 @@ fn barriers(signals: &[SignalInfo]) -> [Option<usize>; 2] {
     [0, 1].map(|beam| signals.iter().position(|info| beam_of(info) == Some(beam)))
 }
 
-fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run: &mut Run) -> Script {
+/// The parts on a belt. `reported`: how far it went by its own report.
+fn of_belt(
+    geometry: &Geometry,
+    signals: &[SignalInfo],
+    device: &dyn Device,
+    reported: Option<&Way>,
+    run: &mut Run,
+) -> Script {
     let places = barriers(signals);
     // By the device's own time: flags are late by what is common to all.
     let late = run.task.age_s + run.task.filter_s;
@@ -122,18 +133,14 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run
     let Some(grid) = tracks.iter().flatten().next().map(|track| track.grid.clone()) else {
         return Script::default();
     };
-    let ways = alone::travel(device.boxed(), run, &grid.instants);
-    let travel = |at: f64| {
-        let after = grid.instants.partition_point(|instant| *instant <= at).clamp(1, ways.len().max(2) - 1);
-        match (ways.get(after - 1), ways.get(after)) {
-            (Some(low), Some(high)) => {
-                let span = grid.instants[after] - grid.instants[after - 1];
-                low + (high - low) * ((at - grid.instants[after - 1]) / span).clamp(0.0, 1.0)
-            }
-            _ => 0.0,
-        }
+    let nominal = (grid.instants.clone(), alone::travel(device.boxed(), run, &grid.instants));
+    let by = |way: &Way| parts::assign(geometry, tracks, &|at| travelled(way, at));
+    let (script, origins) = by(&nominal);
+    // A belt that is slower than its law brings parts to the second barrier when nobody expects them, as if they were others.
+    let (script, origins) = match reported.map(by) {
+        Some((other, origins)) if other.parts() < script.parts() => (other, origins),
+        _ => (script, origins),
     };
-    let (script, origins) = parts::assign(geometry, tracks, &travel);
     let script = Script { beams: geometry.beams, ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
@@ -142,6 +149,36 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, run
         }
     }
     script
+}
+
+/// Parts that a bay has put and no barrier has seen yet are on the belt all the same.
+fn on_their_way(script: &Script, fed: &Fed, way: &Way) -> Vec<Told> {
+    let mut changes: Vec<(f64, i32)> = Vec::new();
+    for (place, cut) in script.cuts.iter().enumerate() {
+        let is_first = !script.cuts[..place].iter().any(|other| other.part == cut.part);
+        if let Some(put) = fed.put(cut.front, cut.from, way).filter(|_| is_first && cut.way > 0.0) {
+            changes.extend([(put, 1), (cut.from, -1)]);
+        }
+    }
+    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut held = 0;
+    let told = changes.into_iter().map(|(at, by)| {
+        held += by;
+        Told { at, what: Surrounding::Held(held.max(0) as u32), is_on: true }
+    });
+    told.collect()
+}
+
+/// How far a belt has gone by an instant, m.
+fn travelled((instants, ways): &Way, at: f64) -> f64 {
+    let after = instants.partition_point(|instant| *instant <= at).clamp(1, ways.len().max(2) - 1);
+    match (ways.get(after - 1), ways.get(after)) {
+        (Some(low), Some(high)) => {
+            let span = instants[after] - instants[after - 1];
+            low + (high - low) * ((at - instants[after - 1]) / span).clamp(0.0, 1.0)
+        }
+        _ => 0.0,
+    }
 }
 
 fn of_pusher(signals: &[SignalInfo], run: &mut Run) -> Script {

@@ -86,6 +86,8 @@ impl Library<'_> {
         places
             .flat_map(|&place| self.components(place).into_iter().map(move |component| (place, component)))
             .filter(|(_, component)| effect.id != "offset" || !self.counts_from_nothing(*component))
+            // A polarity is one signal's: nobody crosses the wires of a whole link.
+            .filter(|(_, component)| effect.id != "inverted" || component.is_some())
             .flat_map(|(place, component)| self.variants(effect, place, component))
             .collect()
     }

@@ -4,6 +4,7 @@ use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Standing};
 use crate::gap::fit::Range;
+use crate::gap::floor::FLOOR_UNCERTAINTY;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
 use crate::gap::{Predicted, Prediction, Score};
 use crate::plant::EffectPlace;
@@ -31,8 +32,6 @@ const LEAST_SHARE: f64 = 0.01;
 /// figures of docs/gap-on-real-data.md two joints of a real arm leave 0.005 to 0.12 of their position's squares.)
 const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.12;
 const PLAY: [&str; 3] = ["backlash", "dead-band", "hysteresis"];
-/// How much of a floor's cost is uncertain because its noise is an estimate.
-const FLOOR_UNCERTAINTY: f64 = 0.06;
 
 /// What is left.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -61,18 +61,24 @@ pub fn find(place: usize, study: &Study, is_asked: &(dyn Fn(&str) -> bool + Sync
     if subject.is_taken_up_again() {
         return None;
     }
-    let has_gap = evidence(subject, &bare.prediction) > THRESHOLD;
-    let by_reading = || [Law::Away, Law::Lost].into_iter().find_map(|law| taken_out(subject, bare, law, is_asked));
-    let found = if has_gap { by_reading() } else { None };
+    let before = evidence(subject, &bare.prediction);
+    let by_reading =
+        || [Law::Away, Law::Lost].into_iter().find_map(|law| taken_out(subject, bare, before, law, is_asked));
+    let found = if before > THRESHOLD { by_reading() } else { None };
     found.or_else(|| if is_asked("noise") { scatter::find(place, study) } else { None })
 }
 
-/// The device without what a law drew of its signals, if that explains it.
-fn taken_out(subject: &Subject, bare: &Bare, law: Law, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<Chance> {
+/// The device without what a law drew of its signals, if that explains it. `before`: its evidence with what was drawn.
+fn taken_out(
+    subject: &Subject,
+    bare: &Bare,
+    before: f64,
+    law: Law,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Option<Chance> {
     if !is_asked(law.id()) {
         return None;
     }
-    let before = evidence(subject, &bare.prediction);
     let read_all = |is_known: bool| -> Vec<(usize, Reading)> {
         let read = |signal: usize| Some((signal, Reading::of(subject, &bare.prediction, signal, law, is_known)?));
         (0..subject.signals.len()).filter_map(read).collect()

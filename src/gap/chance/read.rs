@@ -1,7 +1,7 @@
 //! What was drawn, read off the recording: sample by sample of a level, edge by edge of a flag.
 
 use crate::gap::prediction::{Predicted, Prediction};
-use crate::gap::statistics::quantile;
+use crate::gap::statistics::{quantile, wilson};
 use crate::gap::subject::{Subject, beam_of};
 use crate::gap::track::{Edge, Track};
 
@@ -288,10 +288,9 @@ impl Reading {
             true => 1.0,
             false => (self.spans.iter().sum::<f64>() / self.spans.len() as f64 / self.cycle).max(1.0),
         };
-        let (count, z) = (self.telling as f64 / each, 1.96_f64);
-        let middle = (share + z * z / (2.0 * count)) / (1.0 + z * z / count);
-        let reach = z / (1.0 + z * z / count) * (share * (1.0 - share) / count + (z / (2.0 * count)).powi(2)).sqrt();
-        ((middle - reach).max(0.0), share, (middle + reach).min(1.0))
+        let count = self.telling.max(1) as f64 / each;
+        let [least, most] = wilson(share * count, count);
+        (least, share, most)
     }
 
     /// How long a window is, s, and its interval: what most stretches last, within a cycle.

@@ -67,26 +67,51 @@ fn in_steps(study: &Study, at: usize, signal: usize) -> Option<f64> {
     subject.runs.iter().zip(&study.bare[at].prediction.runs).filter_map(of).min_by(f64::total_cmp)
 }
 
-/// The noise of samples where the prediction moves by less than `still`, by the median of what one differs from the next, which nothing that
-/// settles moves; `None` where too few rest.
+/// The noise of samples where the prediction moves by less than `still`: of each rest its later half, by the median of what one differs from
+/// the next, and of these the quietest tenth. What swings out or settles there has done so in some; `None` where too few rest.
 fn at_rest(values: &[f64], predicted: &[f64], still: f64) -> Option<f64> {
-    const ENOUGH: usize = 40;
-    let pairs = values.windows(2).zip(predicted.windows(2)).filter(|(_, law)| (law[1] - law[0]).abs() < still);
-    let differences: Vec<f64> = pairs.map(|(two, _)| (two[1] - two[0]).abs()).collect();
-    (differences.len() >= ENOUGH).then(|| 1.4826 * quantile(&differences, 0.5) / std::f64::consts::SQRT_2)
+    const ENOUGH: usize = 12;
+    const QUIETEST: f64 = 0.1;
+    let rests: Vec<bool> = predicted.windows(2).map(|law| (law[1] - law[0]).abs() < still).collect();
+    let differences: Vec<f64> = values.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
+    let mut noises = Vec::new();
+    let mut first = 0;
+    for rest in rests.chunk_by(|a, b| a == b) {
+        let later = first + rest.len() / 2..first + rest.len();
+        first += rest.len();
+        if rest[0] && later.len() >= ENOUGH {
+            noises.push(1.4826 * quantile(&differences[later], 0.5) / std::f64::consts::SQRT_2);
+        }
+    }
+    (!noises.is_empty()).then(|| quantile(&noises, QUIETEST))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// A hundred samples at rest, a hundred that move, over and over.
+    fn law() -> Vec<f64> {
+        let place = |k: u32| if k / 100 % 2 == 0 { 0.0 } else { 50.0 * f64::from(k) };
+        (0..600).map(place).collect()
+    }
+
     /// Differences of one unit with either sign: what moves says nothing.
     #[test]
     fn noise_is_what_scatters_at_rest() {
-        let predicted: Vec<f64> = (0..200).map(|k| if k > 100 { 50.0 * f64::from(k) } else { 0.0 }).collect();
+        let predicted = law();
         let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + (k % 2) as f64).collect();
         let noise = at_rest(&values, &predicted, 0.1).expect("enough rests");
         assert!((noise - 1.4826 / std::f64::consts::SQRT_2).abs() < 1e-12);
-        assert_eq!(at_rest(&values[101..], &predicted[101..], 0.1), None);
+        assert_eq!(at_rest(&values[101..200], &predicted[101..200], 0.1), None);
+    }
+
+    /// Of what swings when it comes to rest, 15 samples a turn, little is left in the later half.
+    #[test]
+    fn what_swings_out_is_no_noise() {
+        let predicted = law();
+        let swing = |k: usize| (-((k % 100) as f64) / 8.0).exp() * (0.4 * k as f64).sin();
+        let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + swing(k)).collect();
+        assert!(at_rest(&values, &predicted, 0.1).expect("enough rests") < 1e-3);
     }
 }
