@@ -134,13 +134,11 @@ fn of_belt(
         return Script::default();
     };
     let nominal = (grid.instants.clone(), alone::travel(device.boxed(), run, &grid.instants));
-    let by = |way: &Way| parts::assign(geometry, tracks, &|at| travelled(way, at));
-    let (script, origins) = by(&nominal);
     // A belt that is slower than its law brings parts to the second barrier when nobody expects them, as if they were others.
-    let (script, origins) = match reported.map(by) {
-        Some((other, origins)) if other.parts() < script.parts() => (other, origins),
-        _ => (script, origins),
-    };
+    let off = |way: &Way| mismatch(&geometry.beams, tracks, way);
+    let is_better = |way: &&Way| off(way).zip(off(&nominal)).is_some_and(|(reported, law)| reported < MUCH_LESS * law);
+    let way = reported.filter(is_better).unwrap_or(&nominal);
+    let (script, origins) = parts::assign(geometry, tracks, &|at| travelled(way, at));
     let script = Script { beams: geometry.beams, ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
@@ -167,6 +165,27 @@ fn on_their_way(script: &Script, fed: &Fed, way: &Way) -> Vec<Told> {
         Told { at, what: Surrounding::Held(held.max(0) as u32), is_on: true }
     });
     told.collect()
+}
+
+/// How much nearer a belt's own report of its speed must bring what came to its barriers than its law does.
+const MUCH_LESS: f64 = 0.5;
+/// Beyond this much two sightings are of two parts, m.
+const APART_M: f64 = 0.15;
+
+/// How far from the way between its beams a belt went between what came to one and what came to the other next, m, in the mean of
+/// all; `None` where fewer than three came.
+fn mismatch(beams: &[Option<f64>; 2], tracks: [Option<&Track>; 2], way: &Way) -> Option<f64> {
+    const ENOUGH: usize = 3;
+    let [first, second] = [tracks[0]?, tracks[1]?];
+    let between = beams[1]? - beams[0]?;
+    let came = |track: &Track| -> Vec<f64> {
+        let rises = track.edges.iter().filter(|edge| edge.to != 0.0);
+        rises.map(|edge| travelled(way, parts::middle(track, edge.index))).collect()
+    };
+    let (here, there) = (came(first), came(second));
+    let off = |from: &f64| there.iter().map(|to| (to - from - between).abs()).fold(APART_M, f64::min);
+    let all: Vec<f64> = here.iter().map(off).collect();
+    (all.len() >= ENOUGH).then(|| all.iter().sum::<f64>() / all.len() as f64)
 }
 
 /// How far a belt has gone by an instant, m.

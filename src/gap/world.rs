@@ -24,14 +24,6 @@ pub struct Script {
     pub beams: [Option<f64>; 2],
 }
 
-impl Script {
-    /// How many parts its cuts are of.
-    pub fn parts(&self) -> usize {
-        let is_first = |place: &usize| !self.cuts[..*place].iter().any(|cut| cut.part == self.cuts[*place].part);
-        (0..self.cuts.len()).filter(is_first).count()
-    }
-}
-
 /// A beam or a seal is told to be so from now on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Told {

@@ -92,7 +92,7 @@ mod tests {
 
     /// A hundred samples at rest, a hundred that move, over and over.
     fn law() -> Vec<f64> {
-        let place = |k: u32| if k / 100 % 2 == 0 { 0.0 } else { 50.0 * f64::from(k) };
+        let place = |k: u32| if (k / 100).is_multiple_of(2) { 0.0 } else { 50.0 * f64::from(k) };
         (0..600).map(place).collect()
     }
 
