@@ -374,7 +374,7 @@ mod tests {
         let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
         let of = |line: &[&str]| Line::parse_from([&["exam", "short"], line].concat()).arguments;
         let (bounded, free) = (of(&["--timeout", "60s"]), of(&[]));
-        let mut report = Report::new(Verdict::NoGap);
+        let mut report = Report::new(Verdict::NotTestable);
         assert_eq!(report.flaws(), Vec::<String>::new());
         report.incomplete = true;
         write(REPORT, &report.to_json());

@@ -16,10 +16,8 @@ use super::prediction::Predicted;
 use super::statistics::quantile;
 use super::subject::Subject;
 
-/// As near as instants are known at all, s: to about this the age of reports is found.
-const LEAST_S: f64 = 2e-6;
-/// How far they are taken to be off where too little moves to say it, s.
-pub(super) const UNKNOWN_S: f64 = 10e-6;
+/// As near as instants are taken to be known at all, s.
+pub(super) const LEAST_S: f64 = 10e-6;
 /// As far as they are looked for, s: what is off by more has another reason.
 const MOST_S: f64 = 50e-6;
 /// How many levels have to say it, and on how many samples each.
@@ -38,7 +36,7 @@ pub(super) fn find(subjects: &[Subject], bare: &[Bare], run: usize) -> f64 {
         levels.filter_map(|signal| of_level(subject, bare, (run, signal))).collect::<Vec<f64>>()
     });
     let each: Vec<f64> = each.collect();
-    if each.len() < LEVELS { UNKNOWN_S } else { quantile(&each, QUIETER).clamp(LEAST_S, MOST_S) }
+    if each.len() < LEVELS { LEAST_S } else { quantile(&each, QUIETER).clamp(LEAST_S, MOST_S) }
 }
 
 /// What one level says, s; `None` where it hardly runs at one speed.

@@ -233,7 +233,7 @@ fn find_task(
             subject.set_tick(run, 0.0, 0.0);
             subject.set_task(run, task);
         });
-        find_timing(subjects, run)?;
+        // Its reports are as old as those of the training within some ten microseconds: as far as is taken of a run without a task.
         return Ok(Some(task.every_s));
     }
     let found = if main.is_rebuilt { task::find(subjects, run, main.cycle)? } else { None };
@@ -259,7 +259,7 @@ fn find_task(
 
 /// How far the instants of a run are off once its task is known, which is set in all subjects; each as its tolerances let it stand.
 fn find_timing(subjects: &mut [Subject], run: usize) -> Result<Vec<Bare>, EffectError> {
-    subjects.iter_mut().for_each(|subject| subject.runs[run].timing_s = Some(stamps::UNKNOWN_S));
+    subjects.iter_mut().for_each(|subject| subject.runs[run].timing_s = Some(stamps::LEAST_S));
     let bare = within_tolerances(subjects)?;
     let timing_s = stamps::find(subjects, &bare, run);
     subjects.iter_mut().for_each(|subject| subject.runs[run].timing_s = Some(timing_s));

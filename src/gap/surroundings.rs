@@ -136,7 +136,9 @@ fn of_belt(
     let nominal = (grid.instants.clone(), alone::travel(device.boxed(), run, &grid.instants));
     // A belt that is slower than its law brings parts to the second barrier when nobody expects them, as if they were others.
     let off = |way: &Way| mismatch(&geometry.beams, tracks, way);
-    let is_better = |way: &&Way| off(way).zip(off(&nominal)).is_some_and(|(reported, law)| reported < MUCH_LESS * law);
+    let is_better = |way: &&Way| {
+        off(way).zip(off(&nominal)).is_some_and(|(reported, law)| law > OFF_M && reported < MUCH_LESS * law)
+    };
     let way = reported.filter(is_better).unwrap_or(&nominal);
     let (script, origins) = parts::assign(geometry, tracks, &|at| travelled(way, at));
     let script = Script { beams: geometry.beams, ..script };
@@ -169,6 +171,8 @@ fn on_their_way(script: &Script, fed: &Fed, way: &Way) -> Vec<Told> {
 
 /// How much nearer a belt's own report of its speed must bring what came to its barriers than its law does.
 const MUCH_LESS: f64 = 0.5;
+/// From which mismatch on a law may take one part for another, m.
+const OFF_M: f64 = 0.02;
 /// Beyond this much two sightings are of two parts, m.
 const APART_M: f64 = 0.15;
 

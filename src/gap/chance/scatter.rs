@@ -67,23 +67,31 @@ fn in_steps(study: &Study, at: usize, signal: usize) -> Option<f64> {
     subject.runs.iter().zip(&study.bare[at].prediction.runs).filter_map(of).min_by(f64::total_cmp)
 }
 
-/// The noise of samples where the prediction moves by less than `still`: of each rest its later half, by the median of what one differs from
-/// the next, and of these the quietest tenth. What swings out or settles there has done so in some; `None` where too few rest.
+/// The noise of samples where the prediction moves by less than `still`, by the median of what one differs from the next: of each long rest
+/// its later half, and of these the quietest tenth, as what swings out or settles there has done so in some; where no rest is long, of
+/// all that rest. `None` where too few do.
 fn at_rest(values: &[f64], predicted: &[f64], still: f64) -> Option<f64> {
-    const ENOUGH: usize = 12;
+    const LONG: usize = 24;
+    const ENOUGH: usize = 40;
     const QUIETEST: f64 = 0.1;
+    let noise = |differences: &[f64]| 1.4826 * quantile(differences, 0.5) / std::f64::consts::SQRT_2;
     let rests: Vec<bool> = predicted.windows(2).map(|law| (law[1] - law[0]).abs() < still).collect();
     let differences: Vec<f64> = values.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
-    let mut noises = Vec::new();
-    let mut first = 0;
+    let (mut long, mut all, mut first) = (Vec::new(), Vec::new(), 0);
     for rest in rests.chunk_by(|a, b| a == b) {
-        let later = first + rest.len() / 2..first + rest.len();
+        let here = &differences[first..first + rest.len()];
         first += rest.len();
-        if rest[0] && later.len() >= ENOUGH {
-            noises.push(1.4826 * quantile(&differences[later], 0.5) / std::f64::consts::SQRT_2);
+        if rest[0] {
+            all.extend_from_slice(here);
+            if here.len() >= LONG {
+                long.push(noise(&here[here.len() / 2..]));
+            }
         }
     }
-    (!noises.is_empty()).then(|| quantile(&noises, QUIETEST))
+    match long.is_empty() {
+        true => (all.len() >= ENOUGH).then(|| noise(&all)),
+        false => Some(quantile(&long, QUIETEST)),
+    }
 }
 
 #[cfg(test)]
