@@ -3,6 +3,8 @@
 //! A part moves with the belt that carries most of it: with this one while its centre is on it, then with the one behind, as far
 //! as that reported that it went. While it stands on both, the belt that carries it may lose a share of its way.
 
+use super::way::Way;
+
 /// A belt's length and what lies at its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Lane {
@@ -29,9 +31,8 @@ pub(super) enum End {
 /// A belt behind an end, by what it reported.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Beyond {
-    /// Instants, s, ascending, and how far it has gone by then, m away from this belt.
-    pub instants: Vec<f64>,
-    pub ways: Vec<f64>,
+    /// How far it has gone away from this belt.
+    pub way: Way,
     /// How far behind the end its first beam is, m.
     pub beam: Option<f64>,
     /// When something came to that beam, s.
@@ -44,25 +45,14 @@ pub(super) struct Beyond {
 const FACTORS: std::ops::Range<f64> = 0.7..1.4;
 
 impl Beyond {
-    fn way(&self, at: f64) -> f64 {
-        let after = self.instants.partition_point(|instant| *instant <= at);
-        let (Some(&first), Some(&last)) = (self.ways.first(), self.ways.last()) else { return 0.0 };
-        if after == 0 || after == self.instants.len() {
-            return if after == 0 { first } else { last };
-        }
-        let (from, to) = (self.instants[after - 1], self.instants[after]);
-        let share = (at - from) / (to - from).max(1e-12);
-        self.ways[after - 1] + share * (self.ways[after] - self.ways[after - 1])
-    }
-
     /// By what factor it goes further than it reports, by when its first beam saw the part of which it took over at `from` so that
     /// the part's front was `front` behind the end; 1 where it is trusted, or nothing comes near.
     pub fn factor(&self, from: f64, front: f64) -> f64 {
         let Some(way) = self.beam.map(|beam| beam - front).filter(|way| !self.is_trusted && *way > 0.0) else {
             return 1.0;
         };
-        let begins = self.way(from);
-        let seen = self.arrivals.iter().filter(|at| **at > from).map(|at| way / (self.way(*at) - begins));
+        let begins = self.way.at(from);
+        let seen = self.arrivals.iter().filter(|at| **at > from).map(|at| way / (self.way.at(*at) - begins));
         let near = seen.filter(|factor| FACTORS.contains(factor));
         near.min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs())).unwrap_or(1.0)
     }
@@ -173,7 +163,7 @@ impl Lane {
                         let front = if sign > 0.0 { rider.centre + half - self.length } else { half - rider.centre };
                         rider.factor = beyond.factor(now, front);
                     }
-                    sign * rider.factor * (beyond.way(step.to) - beyond.way(now))
+                    sign * rider.factor * (beyond.way.at(step.to) - beyond.way.at(now))
                 }
                 None => {
                     let ahead = rider.centre + 1e-9 * own.signum();
@@ -208,7 +198,9 @@ impl Lane {
             let share = self.share_behind(rider.centre, rider.length);
             let is_at_end = rider.centre > 0.5 * self.length;
             let behind = match &self.ends[usize::from(is_at_end)] {
-                End::Belt(beyond) => (beyond.way(now + span) - beyond.way(now)) * if is_at_end { 1.0 } else { -1.0 },
+                End::Belt(beyond) => {
+                    (beyond.way.at(now + span) - beyond.way.at(now)) * if is_at_end { 1.0 } else { -1.0 }
+                }
                 _ => 0.0,
             };
             let slip = if share > 0.0 { step.slip } else { 0.0 };
@@ -265,8 +257,7 @@ mod tests {
     fn lane(speed: f64, arrivals: &[f64]) -> Lane {
         let instants: Vec<f64> = (0..2000).map(|k| 0.02 * f64::from(k)).collect();
         let beyond = Beyond {
-            ways: instants.iter().map(|at| speed * at).collect(),
-            instants,
+            way: Way { metres: instants.iter().map(|at| speed * at).collect(), instants },
             beam: Some(0.5),
             arrivals: arrivals.to_vec(),
             is_trusted: arrivals.is_empty(),

@@ -8,6 +8,7 @@ use super::overrides::Overrides;
 use super::parts::middle;
 use super::subject::{Subject, beam_of};
 use super::track::Track;
+use super::way::Way;
 use crate::device::{Belt, Place, Plate, Role, Surface as DeviceSurface, Transfer};
 use crate::effect::EffectError;
 use crate::kinematics::{Along, DPose3, DVec2, DVec3, Shape, Surface, Upright};
@@ -36,10 +37,10 @@ pub(super) struct Fed {
 
 impl Fed {
     /// When it put a part whose front was at `front` at `until`, s, the belt having gone so far; `None` of one that it cannot have put.
-    pub fn put(&self, front: f64, until: f64, (instants, ways): &Way) -> Option<f64> {
+    pub fn put(&self, front: f64, until: f64, Way { instants, metres }: &Way) -> Option<f64> {
         let went = front - self.at - 0.5 * self.length;
         let here = instants.partition_point(|at| *at <= until).checked_sub(1)?;
-        let before = (0..here).rev().find(|at| ways[here] - ways[*at] >= went)?;
+        let before = (0..here).rev().find(|at| metres[here] - metres[*at] >= went)?;
         (went > 0.0).then(|| instants[before])
     }
 }
@@ -139,7 +140,7 @@ impl Layout {
             return Ok(if is_alone { End::Open } else { End::Unknown });
         };
         let subject = &subjects[other];
-        let Some((instants, ways)) = way_of(subject, run, sign)? else { return Ok(End::Unknown) };
+        let Some(way) = way_of(subject, run, sign)? else { return Ok(End::Unknown) };
         let belt = &self.belts.iter().find(|(at, _)| *at == other).map(|(_, standing)| standing.belt);
         let beams = belt.map_or([None; 2], |belt| belt.barriers);
         let length = belt.map_or(0.0, |belt| belt.surface.length());
@@ -152,7 +153,7 @@ impl Layout {
             rises.map(|edge| middle(track, edge.index) - late).collect()
         });
         let beam = first.map(|(_, place)| place);
-        Ok(End::Belt(Beyond { instants, ways, beam, arrivals, is_trusted: is_trusted(other) }))
+        Ok(End::Belt(Beyond { way, beam, arrivals, is_trusted: is_trusted(other) }))
     }
 
     /// The belt that goes on where another ends (begins, if not `forwards`), and whether it runs away from there.
@@ -271,9 +272,6 @@ fn barrier(subject: &Subject, run: usize, beam: usize) -> Option<&Track> {
     subject.runs[run].tracks[place].as_ref()
 }
 
-/// Instants, s, and how far a belt has gone by each, m.
-pub(super) type Way = (Vec<f64>, Vec<f64>);
-
 /// How far a belt went by its own report of its speed, or, where it has none, by its commands; times `sign`.
 fn way_of(subject: &Subject, run: usize, sign: f64) -> Result<Option<Way>, EffectError> {
     let of = &subject.runs[run];
@@ -286,8 +284,8 @@ fn way_of(subject: &Subject, run: usize, sign: f64) -> Result<Option<Way>, Effec
             way += sign * 0.5 * (speed[0] + speed[1]) * (at[1] - at[0]);
             way
         });
-        let ways = std::iter::once(0.0).chain(ways).collect();
-        return Ok(Some((instants, ways)));
+        let metres = std::iter::once(0.0).chain(ways).collect();
+        return Ok(Some(Way { instants, metres }));
     }
     if of.commands.is_empty() {
         return Ok(None);
@@ -295,8 +293,8 @@ fn way_of(subject: &Subject, run: usize, sign: f64) -> Result<Option<Way>, Effec
     let Some(track) = of.tracks.iter().flatten().next() else { return Ok(None) };
     let device = subject.device(&[], &Overrides::none())?;
     let instants = track.grid.instants.clone();
-    let ways = alone::travel(device, of, &instants).into_iter().map(|way| sign * way).collect();
-    Ok(Some((instants, ways)))
+    let metres = alone::travel(device, of, &instants).into_iter().map(|way| sign * way).collect();
+    Ok(Some(Way { instants, metres }))
 }
 
 /// When a pusher's plate was not where it does nothing.

@@ -64,6 +64,7 @@ mod task;
 mod tick;
 mod tolerance;
 mod track;
+mod way;
 mod world;
 
 #[cfg(doc)]

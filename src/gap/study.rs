@@ -270,7 +270,7 @@ fn find_timing(subjects: &mut [Subject], run: usize) -> Result<Vec<Bare>, Effect
 fn within_tolerances(subjects: &mut [Subject]) -> Result<Vec<Bare>, EffectError> {
     let nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
     let each = subjects.par_iter().zip(&nominal).with_max_len(1);
-    Ok(each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect())
+    Ok(each.map(|(subject, nominal)| Bare::roughly(subject, nominal)).collect())
 }
 
 /// The nominal prediction of a subject, and its floors with it.

@@ -8,10 +8,11 @@
 use std::sync::Arc;
 
 use super::alone;
-use super::layout::{Beside, Fed, Way};
+use super::layout::{Beside, Fed};
 use super::parts::{self, Geometry, Origin};
 use super::subject::{Run, SignalInfo, beam_of};
 use super::track::Track;
+use super::way::Way;
 use super::world::{Script, Surrounding, Told};
 use crate::device::{Device, Role, Surface};
 use crate::plant::{ParameterValue, Parameters, Plant};
@@ -62,11 +63,11 @@ pub(super) fn surround(
                 hands: beside.hands.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
-            let mut script = of_belt(&geometry, signals, device, beside.way.as_ref(), run);
-            if let (Some(fed), Some(way)) = (&beside.fed, &beside.way) {
-                script.told = on_their_way(&script, fed, way);
+            let script = of_belt(&geometry, signals, device, beside.way.as_ref(), run);
+            match (&beside.fed, &beside.way) {
+                (Some(fed), Some(way)) => fed_by(fed, way, script),
+                _ => script,
             }
-            script
         }
         Role::Pushes(_) => of_pusher(signals, run),
         Role::Holds(cups) if !cups.always_sealed => of_gripper(kind, parameters, signals, run),
@@ -133,14 +134,14 @@ fn of_belt(
     let Some(grid) = tracks.iter().flatten().next().map(|track| track.grid.clone()) else {
         return Script::default();
     };
-    let nominal = (grid.instants.clone(), alone::travel(device.boxed(), run, &grid.instants));
+    let nominal = Way { metres: alone::travel(device.boxed(), run, &grid.instants), instants: grid.instants.clone() };
     // A belt that is slower than its law brings parts to the second barrier when nobody expects them, as if they were others.
     let off = |way: &Way| mismatch(&geometry.beams, tracks, way);
     let is_better = |way: &&Way| {
         off(way).zip(off(&nominal)).is_some_and(|(reported, law)| law > OFF_M && reported < MUCH_LESS * law)
     };
     let way = reported.filter(is_better).unwrap_or(&nominal);
-    let (script, origins) = parts::assign(geometry, tracks, &|at| travelled(way, at));
+    let (script, origins) = parts::assign(geometry, tracks, &|at| way.at(at));
     let script = Script { beams: geometry.beams, ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
@@ -151,8 +152,9 @@ fn of_belt(
     script
 }
 
-/// Parts that a bay has put and no barrier has seen yet are on the belt all the same.
-fn on_their_way(script: &Script, fed: &Fed, way: &Way) -> Vec<Told> {
+/// Parts that a bay has put and no barrier has seen yet are on the belt all the same; they are told beside what is played back as it was
+/// recorded.
+fn fed_by(fed: &Fed, way: &Way, mut script: Script) -> Script {
     let mut changes: Vec<(f64, i32)> = Vec::new();
     for (place, cut) in script.cuts.iter().enumerate() {
         let is_first = !script.cuts[..place].iter().any(|other| other.part == cut.part);
@@ -162,11 +164,12 @@ fn on_their_way(script: &Script, fed: &Fed, way: &Way) -> Vec<Told> {
     }
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut held = 0;
-    let told = changes.into_iter().map(|(at, by)| {
+    script.told.extend(changes.into_iter().map(|(at, by)| {
         held += by;
         Told { at, what: Surrounding::Held(held.max(0) as u32), is_on: true }
-    });
-    told.collect()
+    }));
+    script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
+    script
 }
 
 /// How much nearer a belt's own report of its speed must bring what came to its barriers than its law does.
@@ -184,24 +187,12 @@ fn mismatch(beams: &[Option<f64>; 2], tracks: [Option<&Track>; 2], way: &Way) ->
     let between = beams[1]? - beams[0]?;
     let came = |track: &Track| -> Vec<f64> {
         let rises = track.edges.iter().filter(|edge| edge.to != 0.0);
-        rises.map(|edge| travelled(way, parts::middle(track, edge.index))).collect()
+        rises.map(|edge| way.at(parts::middle(track, edge.index))).collect()
     };
     let (here, there) = (came(first), came(second));
     let off = |from: &f64| there.iter().map(|to| (to - from - between).abs()).fold(APART_M, f64::min);
     let all: Vec<f64> = here.iter().map(off).collect();
     (all.len() >= ENOUGH).then(|| all.iter().sum::<f64>() / all.len() as f64)
-}
-
-/// How far a belt has gone by an instant, m.
-fn travelled((instants, ways): &Way, at: f64) -> f64 {
-    let after = instants.partition_point(|instant| *instant <= at).clamp(1, ways.len().max(2) - 1);
-    match (ways.get(after - 1), ways.get(after)) {
-        (Some(low), Some(high)) => {
-            let span = instants[after] - instants[after - 1];
-            low + (high - low) * ((at - instants[after - 1]) / span).clamp(0.0, 1.0)
-        }
-        _ => 0.0,
-    }
 }
 
 fn of_pusher(signals: &[SignalInfo], run: &mut Run) -> Script {
@@ -238,4 +229,26 @@ fn of_gripper(kind: &KindDescriptor, parameters: &Parameters, signals: &[SignalI
         }
     }
     script
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::world::Cut;
+
+    /// A part that a bay put at 0.2 m and the first beam, at 0.7 m, saw at 2 s, the belt at 0.5 m/s; a box that stood in the other
+    /// beam until 1.5 s is played back all the same.
+    #[test]
+    fn parts_on_their_way_weigh_beside_what_is_played_back() {
+        let instants: Vec<f64> = (0..400).map(|k| 0.01 * f64::from(k)).collect();
+        let way = Way { metres: instants.iter().map(|at| 0.5 * at).collect(), instants };
+        let cut = Cut { part: 0, beam: 0, from: 2.0, ahead: 0.0, front: 0.7, way: 1.0, length: 0.3, taken: None };
+        let beam = |at: f64, is_on: bool| Told { at, what: Surrounding::BarrierB, is_on };
+        let script = Script { cuts: vec![cut], told: vec![beam(0.0, true), beam(1.5, false)], ..Script::default() };
+        let told = fed_by(&Fed { at: 0.2, length: 0.3 }, &way, script).told;
+        assert_eq!(told.len(), 4, "{told:?}");
+        assert_eq!((told[0], told[2]), (beam(0.0, true), beam(1.5, false)));
+        assert!(told[1].what == Surrounding::Held(1) && (told[1].at - 1.3).abs() < 0.02, "{told:?}");
+        assert!(told[3].what == Surrounding::Held(0) && told[3].at == 2.0, "{told:?}");
+    }
 }

@@ -1,5 +1,7 @@
 //! The model as well as its tolerances let it stand: its nominal parameters fitted, and no effect added.
 
+use std::sync::Arc;
+
 use super::bench::{Bench, Trial};
 use super::ladder::anew;
 use super::nuisance::{Nuisance, nuisances};
@@ -18,35 +20,51 @@ pub struct Bare {
     pub prediction: Prediction,
 }
 
-/// How many standard deviations off each nominal parameter is tried before all are fitted together: where edges alone are reported,
-/// nothing has a slope far from where it fits.
+/// How many standard deviations off each nominal parameter is tried: where edges alone are reported, nothing has a slope far from where it
+/// fits.
 const TRIED: [f64; 6] = [-2.0, -1.0, -0.5, 0.5, 1.0, 2.0];
 /// By how many standard deviations each is moved from where the fit ended, one after the other.
 const NEARER: [f64; 6] = [0.5, 0.25, 0.12, 0.06, 0.03, 0.015];
 /// How often all are gone through.
 const ROUNDS: usize = 2;
 
+/// Where the nominal parameters are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Search {
+    /// Everywhere, before there is said to be a gap.
+    All,
+    /// Where they begin, and near to where that leads.
+    Near,
+    /// Downhill from where they begin.
+    Downhill,
+}
+
 impl Bare {
     /// Fits the nominal parameters of a device whose nominal prediction is known.
     pub fn new(subject: &Subject, nominal: &Prediction) -> Bare {
-        Bare::from(subject, nominal, &Overrides::none())
+        Bare::from(subject, nominal, &Overrides::none(), Search::All)
+    }
+
+    /// The same downhill from nominal alone: what the devices say together bears that one of them stays where it is.
+    pub fn roughly(subject: &Subject, nominal: &Prediction) -> Bare {
+        Bare::from(subject, nominal, &Overrides::none(), Search::Downhill)
     }
 
     /// The same, once the device's floors are known better: the fit begins at what was found before.
     pub fn again(&self, subject: &Subject, nominal: &Prediction) -> Bare {
-        Bare::from(subject, nominal, &self.overrides)
+        Bare::from(subject, nominal, &self.overrides, Search::Near)
     }
 
-    fn from(subject: &Subject, nominal: &Prediction, known: &Overrides) -> Bare {
+    fn from(subject: &Subject, nominal: &Prediction, known: &Overrides, search: Search) -> Bare {
         let stop = || false;
         let bench = Bench::new(subject, nuisances(subject, nominal), &stop);
         let begin = |nuisance: &Nuisance| known.0.get(nuisance.name).copied().unwrap_or(nuisance.nominal);
         let start = bench.nuisances.iter().map(begin).collect();
-        let fitted = (!bench.nuisances.is_empty()).then(|| fit(&bench, start)).flatten();
+        let fitted = (!bench.nuisances.is_empty()).then(|| fit(&bench, start, search)).flatten();
         let known = fitted.and_then(|(at, overrides)| Some((bench.predict(&[], &at)?, at, overrides)));
         let (prediction, at, overrides) =
-            known.unwrap_or_else(|| (nominal.clone(), bench.nominal(&[]), Overrides::none()));
-        Bare { nuisances: bench.nuisances, at, overrides, prediction }
+            known.unwrap_or_else(|| (Arc::new(nominal.clone()), bench.nominal(&[]), Overrides::none()));
+        Bare { nuisances: bench.nuisances, at, overrides, prediction: Arc::unwrap_or_clone(prediction) }
     }
 
     /// The same parameters in other recordings of the device.
@@ -59,17 +77,48 @@ impl Bare {
     }
 }
 
-fn fit(bench: &Bench<'_>, start: Vec<f64>) -> Option<(Vec<f64>, Overrides)> {
-    let cost = |at: &[f64]| bench.residuals(&[], at).map_or(f64::INFINITY, |residuals| sum_of_squares(&residuals));
-    let mut best = start;
-    let mut least = cost(&best);
+/// Downhill from `start`; where that leaves a gap, or slopes lead nowhere, from the best of what is tried about it, and nearer and nearer to
+/// where that ends, before there is said to be one.
+fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, Overrides)> {
+    let downhill = |at: Vec<f64>| {
+        let effort = anew(at.len());
+        bench.fit(&[], std::slice::from_ref(&at), effort).or_else(|| bench.trial(&[], at))
+    };
+    let is_off = |trial: &Trial| Some(evidence(bench.subject, &*bench.predict(&[], &trial.at)?) > THRESHOLD);
+    let mut best = match bench.is_rugged() {
+        true => downhill(about(bench, &start))?,
+        false => downhill(start.clone())?,
+    };
+    if !bench.is_rugged() && search != Search::Downhill && is_off(&best)? {
+        let begins: [&dyn Fn(&Trial) -> Vec<f64>; 2] = [&|_| about(bench, &start), &|best| nearer(bench, &best.at)];
+        let skipped = usize::from(search == Search::Near);
+        for begin in begins.into_iter().skip(skipped) {
+            if let Some(again) = downhill(begin(&best)).filter(|again| again.cost < best.cost) {
+                best = again;
+            }
+            if !is_off(&best)? {
+                break;
+            }
+        }
+    }
+    Some((best.at, best.overrides))
+}
+
+fn cost(bench: &Bench<'_>, at: &[f64]) -> f64 {
+    bench.residuals(&[], at).map_or(f64::INFINITY, |residuals| sum_of_squares(&residuals))
+}
+
+/// The best of each parameter at some standard deviations from nominal, one after the other.
+fn about(bench: &Bench<'_>, start: &[f64]) -> Vec<f64> {
+    let mut best = start.to_vec();
+    let mut least = cost(bench, &best);
     for _ in 0..ROUNDS {
         let before = least;
         for (place, nuisance) in bench.nuisances.iter().enumerate() {
             for strain in TRIED {
                 let mut there = best.clone();
                 there[place] = nuisance.at(strain);
-                let cost = cost(&there);
+                let cost = cost(bench, &there);
                 if cost < least {
                     (best, least) = (there, cost);
                 }
@@ -79,34 +128,24 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>) -> Option<(Vec<f64>, Overrides)> {
             break;
         }
     }
-    let fit = |best: Vec<f64>| {
-        let effort = anew(best.len());
-        bench.fit(&[], std::slice::from_ref(&best), effort).or_else(|| bench.trial(&[], best))
-    };
-    let mut trial = fit(best)?;
-    let is_off = |trial: &Trial| Some(evidence(bench.subject, &bench.predict(&[], &trial.at)?) > THRESHOLD);
-    if is_off(&trial)? && !bench.is_rugged() {
-        // Of a count that is many off in the end nothing has a slope either: nearer and nearer, before there is said to be a gap.
-        let mut near = trial.at.clone();
-        let mut least = cost(&near);
-        for strain in NEARER {
-            for (place, nuisance) in bench.nuisances.iter().enumerate() {
-                for by in [-strain, strain] {
-                    let mut there = near.clone();
-                    there[place] += nuisance.at(by) - nuisance.nominal;
-                    let cost = cost(&there);
-                    if cost < least {
-                        (near, least) = (there, cost);
-                    }
+    best
+}
+
+/// The best of each parameter moved a little and ever less: of a count that is many off in the end nothing has a slope.
+fn nearer(bench: &Bench<'_>, start: &[f64]) -> Vec<f64> {
+    let mut best = start.to_vec();
+    let mut least = cost(bench, &best);
+    for strain in NEARER {
+        for (place, nuisance) in bench.nuisances.iter().enumerate() {
+            for by in [-strain, strain] {
+                let mut there = best.clone();
+                there[place] += nuisance.at(by) - nuisance.nominal;
+                let cost = cost(bench, &there);
+                if cost < least {
+                    (best, least) = (there, cost);
                 }
             }
         }
-        if near != trial.at
-            && let Some(again) = fit(near)
-            && again.cost < trial.cost
-        {
-            trial = again;
-        }
     }
-    Some((trial.at, trial.overrides))
+    best
 }

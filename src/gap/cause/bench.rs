@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::candidate::Candidate;
+use super::latest::Latest;
 use super::nuisance::Nuisance;
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals, sum_of_squares};
 use crate::gap::statistics::inflation;
@@ -24,6 +25,7 @@ pub struct Bench<'a> {
     /// Whoever waits for the answer wants it now.
     pub stop: &'a (dyn Fn() -> bool + Sync),
     replays: Arc<AtomicUsize>,
+    latest: Latest,
 }
 
 /// A set of candidates with their parameters, and what it costs.
@@ -78,17 +80,18 @@ impl Trial {
 impl<'a> Bench<'a> {
     /// A device with the nominal parameters that are free with every candidate.
     pub fn new(subject: &'a Subject, nuisances: Vec<Nuisance>, stop: &'a (dyn Fn() -> bool + Sync)) -> Bench<'a> {
-        Bench { subject, nuisances, stop, replays: Arc::default() }
+        Bench { subject, nuisances, stop, replays: Arc::default(), latest: Latest::default() }
     }
 
     /// The same with the device as `subject` weighs it.
     pub fn with<'b>(&'b self, subject: &'b Subject) -> Bench<'b> {
-        Bench { subject, nuisances: self.nuisances.clone(), stop: self.stop, replays: self.replays.clone() }
+        let (nuisances, replays) = (self.nuisances.clone(), self.replays.clone());
+        Bench { subject, nuisances, stop: self.stop, replays, latest: Latest::default() }
     }
 
     /// The device, weighed by what `trial` leaves of it.
     pub fn tolerant(&self, trial: &Trial) -> Option<Subject> {
-        Some(self.subject.tolerant(&self.predict(&trial.set, &trial.at)?))
+        Some(self.subject.tolerant(&*self.predict(&trial.set, &trial.at)?))
     }
 
     /// How often the device was replayed so far.
@@ -118,7 +121,7 @@ impl<'a> Bench<'a> {
     }
 
     /// What the device reports with `set` at `at`; nuisances for which `at` holds no value are nominal.
-    pub fn predict(&self, set: &[Candidate], at: &[f64]) -> Option<Prediction> {
+    pub fn predict(&self, set: &[Candidate], at: &[f64]) -> Option<Arc<Prediction>> {
         let mut rest = at;
         let mut specs = Vec::with_capacity(set.len());
         for candidate in set {
@@ -126,8 +129,10 @@ impl<'a> Bench<'a> {
             specs.push(candidate.spec(own));
             rest = others;
         }
-        self.replays.fetch_add(1, Ordering::Relaxed);
-        self.subject.predict(&specs, &self.overrides(set, at)).ok()
+        self.latest.or_replay(specs, self.overrides(set, at), |specs, overrides| {
+            self.replays.fetch_add(1, Ordering::Relaxed);
+            self.subject.predict(specs, overrides).ok()
+        })
     }
 
     /// The nuisances beside `set` that `at` holds a value for.
@@ -143,7 +148,7 @@ impl<'a> Bench<'a> {
         if self.is_stopped() {
             return None;
         }
-        let mut residuals = self.subject.residuals(&self.predict(set, at)?);
+        let mut residuals = self.subject.residuals(&*self.predict(set, at)?);
         residuals.extend(self.strain(set, at));
         Some(residuals)
     }
@@ -190,7 +195,7 @@ impl<'a> Bench<'a> {
 
     /// What a set costs at `at`.
     pub fn trial(&self, set: &[Candidate], at: Vec<f64>) -> Option<Trial> {
-        let score = self.subject.score(&self.predict(set, &at)?);
+        let score = self.subject.score(&*self.predict(set, &at)?);
         let strain = fit::sum_of_squares(&self.strain(set, &at));
         Some(Trial {
             ranges: self.ranges(set),
@@ -232,7 +237,7 @@ impl<'a> Bench<'a> {
     /// `at` is where the fit begins.
     pub fn distance(&self, output: &Prediction, set: &[Candidate], at: &[f64]) -> Option<f64> {
         let apart = |at: &[f64]| {
-            let mut residuals = self.subject.apart(output, &self.predict(set, at)?);
+            let mut residuals = self.subject.apart(output, &*self.predict(set, at)?);
             residuals.extend(self.strain(set, at));
             (!self.is_stopped()).then_some(residuals)
         };

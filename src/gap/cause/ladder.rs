@@ -1,5 +1,7 @@
 //! The ladder: the best effect, then a second and a third beside it, as long as each is worth having.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
@@ -139,7 +141,7 @@ enum Rung {
 fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> Rung {
     let below = ladder.best.clone();
     let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return Rung::Left };
-    let is_evident = |prediction: Prediction| evidence(bench.subject, &prediction) > THRESHOLD;
+    let is_evident = |prediction: Arc<Prediction>| evidence(bench.subject, &prediction) > THRESHOLD;
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
         return Rung::Left;
     }
@@ -195,7 +197,7 @@ impl Standing {
 
     /// As `trial` leaves a device.
     pub fn of_trial(bench: &Bench<'_>, trial: &Trial) -> Option<Standing> {
-        Some(Standing::of(&bench.subject.score(&bench.predict(&trial.set, &trial.at)?)))
+        Some(Standing::of(&bench.subject.score(&*bench.predict(&trial.set, &trial.at)?)))
     }
 
     /// What `cost` is above the floor, in all or by one signal alone.
@@ -287,7 +289,8 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
     let weighed = bench.with(&ladder.subject);
     let fitted = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
         let there = weighed.trial(&trial.set, trial.at.clone())?;
-        if rank >= MOST || there.cost == trial.cost {
+        let is_near = ladder.bare.cost - there.cost > NEAR_THE_BEST * (ladder.bare.cost - ladder.best.cost);
+        if rank >= MOST || !is_near || there.cost == trial.cost {
             return Some(there);
         }
         weighed.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len())).or(Some(there))

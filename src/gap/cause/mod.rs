@@ -7,6 +7,7 @@ mod candidate;
 mod class;
 mod intervals;
 mod ladder;
+mod latest;
 mod library;
 mod nuisance;
 mod remainder;

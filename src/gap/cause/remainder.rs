@@ -62,7 +62,7 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let best = &bench.trial(&ladder.best.set, ladder.best.at.clone())?;
     let prediction = bench.predict(&best.set, &best.at)?;
     let score = bench.subject.score(&prediction);
-    let bare = bench.subject.score(&bench.predict(&[], &ladder.bare.at)?);
+    let bare = bench.subject.score(&*bench.predict(&[], &ladder.bare.at)?);
     let share = (misfit(&score) / misfit(&bare).max(1e-9)).min(1.0);
     let left = best.cost - ladder.floor.0;
     let is_beyond = |left: f64, variance: f64| left > 18.0 * best.inflation() && left > 5.0 * variance.sqrt();
@@ -246,7 +246,7 @@ fn trend(bench: &Bench<'_>, best: &Trial) -> Option<Trend> {
         .map(|value| {
             let mut at = best.at.clone();
             at[0] = *value;
-            Some(spans(bench, &bench.subject.score(&bench.predict(&best.set, &at)?)))
+            Some(spans(bench, &bench.subject.score(&*bench.predict(&best.set, &at)?)))
         })
         .collect::<Option<_>>()?;
     let inflation = best.inflation();

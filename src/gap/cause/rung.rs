@@ -86,7 +86,9 @@ pub fn rung(
     let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
     let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| match is_near(&glance) {
         true => looks.fit_closely(&glance),
-        false => looks.trial(&glance),
+        false if glance.candidate.free.is_empty() => looks.trial_at(&glance, &[]),
+        // What promised little gets no nominal parameters of its own.
+        false => bench.trial(&glance.set, looks.all(&glance, &glance.at)),
     });
     distinct(trials.collect())
 }
@@ -399,10 +401,6 @@ impl Looks<'_> {
         let effort = Effort { starts: 2, budget: 20 + 12 * ranges.len() as u32 };
         let found = search(&residuals, &starts, &ranges, effort)?;
         self.trial_at(glance, &found.at)
-    }
-
-    fn trial(&self, glance: &Glance) -> Option<Trial> {
-        self.trial_at(glance, &glance.at)
     }
 
     /// With the nuisances at their nominal values: of an effect without a parameter, which leaves next to nothing or nearly everything, so

@@ -42,7 +42,7 @@ impl Tangent {
             let step = DIFFERENCE * nuisance.deviation;
             let mut there = below.at.clone();
             there[own + place] += step;
-            let there = bench.subject.residuals(&bench.predict(&below.set, &there)?);
+            let there = bench.subject.residuals(&*bench.predict(&below.set, &there)?);
             let pairs = there.iter().zip(&here).zip(&is_level);
             Some(pairs.map(|((there, here), is_level)| if *is_level { (there - here) / step } else { 0.0 }).collect())
         };

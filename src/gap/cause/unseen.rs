@@ -10,7 +10,7 @@
 use rayon::prelude::*;
 
 use super::bench::{BLOCK_S, Bench, Trial};
-use crate::gap::fit::{Residuals, least_squares};
+use crate::gap::fit::{Slopes, least_squares_from};
 
 /// Into how many folds each recording is divided.
 const FOLDS: usize = 4;
@@ -33,8 +33,10 @@ pub fn unseen(bench: &Bench<'_>, trial: &Trial, folds: Folds) -> Option<Vec<f64>
     if trial.at.is_empty() {
         return Some(trial.blocks.clone());
     }
-    let score = bench.subject.score(&bench.predict(&trial.set, &trial.at)?);
+    let score = bench.subject.score(&*bench.predict(&trial.set, &trial.at)?);
     let places = score.places();
+    // All folds begin where the trial stands.
+    let slopes = Slopes::of(&|at: &[f64]| bench.residuals(&trial.set, at), &trial.at, &trial.ranges)?;
     let fold = |fold: usize| -> Option<Vec<f64>> {
         let weights: Vec<f64> =
             places.iter().map(|place| f64::from(u8::from(sees(bench, (folds, fold), *place)))).collect();
@@ -43,10 +45,9 @@ pub fn unseen(bench: &Bench<'_>, trial: &Trial, folds: Folds) -> Option<Vec<f64>
             residuals.iter_mut().zip(&weights).for_each(|(residual, weight)| *residual *= weight);
             Some(residuals)
         };
-        let residuals: &Residuals<'_> = &residuals;
         let budget = 4 + 3 * trial.ranges.len() as u32;
-        let fitted = least_squares(residuals, &trial.at, &trial.ranges, budget)?;
-        let there = bench.subject.score(&bench.predict(&trial.set, &fitted.at)?);
+        let fitted = least_squares_from(slopes.weighted(&weights), &residuals, &trial.at, &trial.ranges, budget);
+        let there = bench.subject.score(&*bench.predict(&trial.set, &fitted.at)?);
         Some(bench.blocks(&there))
     };
     let costs: Vec<Vec<f64>> = (0..FOLDS).into_par_iter().map(fold).collect::<Option<_>>()?;

@@ -64,8 +64,9 @@ pub fn find(place: usize, study: &Study, is_asked: &(dyn Fn(&str) -> bool + Sync
     let before = evidence(subject, &bare.prediction);
     let by_reading =
         || [Law::Away, Law::Lost].into_iter().find_map(|law| taken_out(subject, bare, before, law, is_asked));
-    let found = if before > THRESHOLD { by_reading() } else { None };
-    found.or_else(|| if is_asked("noise") { scatter::find(place, study) } else { None })
+    let has_gap = before > THRESHOLD;
+    let found = if has_gap { by_reading() } else { None };
+    found.or_else(|| if is_asked("noise") { scatter::find(place, study, has_gap) } else { None })
 }
 
 /// The device without what a law drew of its signals, if that explains it. `before`: its evidence with what was drawn.

@@ -17,15 +17,16 @@ const STILL: f64 = 0.05;
 /// How well a standard deviation of noise that remembers is known beside what its samples say, as a share.
 const UNSURE: f64 = 0.06;
 
-/// The level of the device at `place` that scatters far more than all others do.
-pub(super) fn find(place: usize, study: &Study) -> Option<Chance> {
+/// The level of the device at `place` that scatters far more than all others do. `has_gap`: whether it is off in other ways, too; what it is
+/// off by looks like noise where it does not rest long.
+pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance> {
     let subject = &study.subjects[place];
     let steps: Vec<(usize, usize, f64)> = study
         .subjects
         .iter()
         .enumerate()
         .flat_map(|(at, subject)| (0..subject.signals.len()).map(move |signal| (at, signal)))
-        .filter_map(|(at, signal)| Some((at, signal, in_steps(study, at, signal)?)))
+        .filter_map(|(at, signal)| Some((at, signal, in_steps(study, at, signal, has_gap && at == place)?)))
         .collect();
     let own = steps.iter().filter(|(at, ..)| *at == place);
     let &(_, signal, noise) = own.max_by(|a, b| a.2.total_cmp(&b.2))?;
@@ -50,8 +51,9 @@ pub(super) fn find(place: usize, study: &Study) -> Option<Chance> {
     Some(Chance { candidate, bounds, subject, bare, misfit, law: None, signals: vec![signal] })
 }
 
-/// The noise of a level in its steps: the least of its recordings; `None` of what is no level, or does not move.
-fn in_steps(study: &Study, at: usize, signal: usize) -> Option<f64> {
+/// The noise of a level in its steps: the least of its recordings; `None` of what is no level, or does not move, or, if `only_long`, never
+/// rests long.
+fn in_steps(study: &Study, at: usize, signal: usize, only_long: bool) -> Option<f64> {
     let subject = &study.subjects[at];
     if subject.signals[signal].is_count {
         return None;
@@ -61,16 +63,16 @@ fn in_steps(study: &Study, at: usize, signal: usize) -> Option<f64> {
         let track = run.tracks[signal].as_ref().filter(|track| track.values.windows(2).any(|two| two[0] != two[1]))?;
         let floor = run.floors[signal];
         // What a law gets wrong in motion looks like noise there, and not at rest.
-        let noise = floor.noise.min(at_rest(&track.values, predicted, STILL * floor.noise.max(floor.step))?);
+        let noise = floor.noise.min(at_rest(&track.values, predicted, STILL * floor.noise.max(floor.step), only_long)?);
         (track.values.len() > 100 && floor.step > 0.0).then(|| noise / floor.step)
     };
     subject.runs.iter().zip(&study.bare[at].prediction.runs).filter_map(of).min_by(f64::total_cmp)
 }
 
 /// The noise of samples where the prediction moves by less than `still`, by the median of what one differs from the next: of each long rest
-/// its later half, and of these the quietest tenth, as what swings out or settles there has done so in some; where no rest is long, of
-/// all that rest. `None` where too few do.
-fn at_rest(values: &[f64], predicted: &[f64], still: f64) -> Option<f64> {
+/// its later half, and of these the quietest tenth, as what swings out or settles there has done so in some; where no rest is long, and not
+/// `only_long`, of all that rest. `None` where too few do.
+fn at_rest(values: &[f64], predicted: &[f64], still: f64, only_long: bool) -> Option<f64> {
     const LONG: usize = 24;
     const ENOUGH: usize = 40;
     const QUIETEST: f64 = 0.1;
@@ -89,7 +91,7 @@ fn at_rest(values: &[f64], predicted: &[f64], still: f64) -> Option<f64> {
         }
     }
     match long.is_empty() {
-        true => (all.len() >= ENOUGH).then(|| noise(&all)),
+        true => (!only_long && all.len() >= ENOUGH).then(|| noise(&all)),
         false => Some(quantile(&long, QUIETEST)),
     }
 }
@@ -109,9 +111,18 @@ mod tests {
     fn noise_is_what_scatters_at_rest() {
         let predicted = law();
         let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + (k % 2) as f64).collect();
-        let noise = at_rest(&values, &predicted, 0.1).expect("enough rests");
+        let noise = at_rest(&values, &predicted, 0.1, false).expect("enough rests");
         assert!((noise - 1.4826 / std::f64::consts::SQRT_2).abs() < 1e-12);
-        assert_eq!(at_rest(&values[101..200], &predicted[101..200], 0.1), None);
+        assert_eq!(at_rest(&values[101..200], &predicted[101..200], 0.1, false), None);
+    }
+
+    /// Rests of 20 samples: short ones say how a peer scatters, and not how what has a gap does.
+    #[test]
+    fn short_rests_say_nothing_of_what_has_a_gap() {
+        let predicted: Vec<f64> = (0..600).map(|k| if (k / 20) % 2 == 0 { 0.0 } else { 50.0 * f64::from(k) }).collect();
+        let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + (k % 2) as f64).collect();
+        assert!(at_rest(&values, &predicted, 0.1, false).is_some());
+        assert_eq!(at_rest(&values, &predicted, 0.1, true), None);
     }
 
     /// Of what swings when it comes to rest, 15 samples a turn, little is left in the later half.
@@ -120,6 +131,6 @@ mod tests {
         let predicted = law();
         let swing = |k: usize| (-((k % 100) as f64) / 8.0).exp() * (0.4 * k as f64).sin();
         let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + swing(k)).collect();
-        assert!(at_rest(&values, &predicted, 0.1).expect("enough rests") < 1e-3);
+        assert!(at_rest(&values, &predicted, 0.1, false).expect("enough rests") < 1e-3);
     }
 }

@@ -11,7 +11,7 @@ mod search;
 mod simplex;
 
 pub use evolution::evolve;
-pub use least_squares::least_squares;
+pub use least_squares::{Slopes, least_squares, least_squares_from};
 pub use profile::{Interval, Side, profile};
 pub use rugged::rugged;
 pub use search::{Effort, search};

@@ -23,32 +23,33 @@ pub fn search(residuals: &Residuals<'_>, starts: &[Vec<f64>], ranges: &[Range], 
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     scored.truncate(effort.starts);
-    let found = scored.par_iter().filter_map(|(_, start)| downhill(residuals, start, ranges, effort.budget));
+    let found = scored.par_iter().filter_map(|(_, start)| least_squares(residuals, start, ranges, effort.budget));
     let found: Vec<Fitted> = found.collect();
-    let best = found.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
-    best.map(|found| Fitted { evaluations: found.evaluations + starts.len() as u32, ..found })
+    let spent = starts.len() as u32 + found.iter().map(|found| found.evaluations).sum::<u32>();
+    let best = found.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let found = nearer(residuals, best, ranges, effort.budget / 2)?;
+    Some(Fitted { evaluations: spent + found.evaluations, ..found })
 }
 
 /// Among more parameters a simplex creeps for longer than any search lasts.
 const MOST_OF_A_SIMPLEX: usize = 4;
 
-fn downhill(residuals: &Residuals<'_>, start: &[f64], ranges: &[Range], budget: u32) -> Option<Fitted> {
-    let found = least_squares(residuals, start, ranges, budget)?;
+/// What a simplex about where least squares ended finds, and least squares from there; its evaluations are those that were spent on it.
+fn nearer(residuals: &Residuals<'_>, found: Fitted, ranges: &[Range], budget: u32) -> Option<Fitted> {
     if ranges.len() > MOST_OF_A_SIMPLEX {
-        return Some(found);
+        return Some(Fitted { evaluations: 0, ..found });
     }
     let near: Vec<Range> = (0..ranges.len())
         .map(|j| Range { scale: (4.0 * found.spread(j)).min(0.3 * ranges[j].scale), ..ranges[j] })
         .collect();
     let mut cost = |at: &[f64]| residuals(at).map(|residuals| sum_of_squares(&residuals));
-    let crawled = simplex(&mut cost, &found.at, &near, 0.1, budget / 2);
-    let evaluations = found.evaluations + crawled.evaluations;
+    let crawled = simplex(&mut cost, &found.at, &near, 0.1, budget);
     // What the simplex found beyond doubt was on another slope: downhill from there once more.
     if crawled.cost < found.cost - 1.0 {
-        let again = least_squares(residuals, &crawled.at, ranges, budget / 2)?;
-        return Some(Fitted { evaluations: evaluations + again.evaluations, ..again });
+        let again = least_squares(residuals, &crawled.at, ranges, budget)?;
+        return Some(Fitted { evaluations: crawled.evaluations + again.evaluations, ..again });
     }
-    Some(Fitted { evaluations, ..found })
+    Some(Fitted { evaluations: crawled.evaluations, ..found })
 }
 
 #[cfg(test)]

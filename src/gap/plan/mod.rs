@@ -173,7 +173,7 @@ fn distance(subject: &Subject, pair: &Pair) -> Option<f64> {
     let bench = Bench::new(subject, nuisances(subject, &nominal), &|| false);
     let output = bench.predict(&pair.cause.set, &pair.cause.at)?;
     let nudged: Vec<f64> = pair.cause.at.iter().map(|value| value * (1.0 + NUDGE)).collect();
-    if sum_of_squares(&subject.apart(&output, &bench.predict(&pair.cause.set, &nudged)?)) > 1.0 {
+    if sum_of_squares(&subject.apart(&output, &*bench.predict(&pair.cause.set, &nudged)?)) > 1.0 {
         return None;
     }
     let set = &pair.rival.set;
