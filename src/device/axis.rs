@@ -102,31 +102,23 @@ impl Axis {
         if self.stages.is_nominal() {
             return self.profile.advance(seconds);
         }
-        let mut stages = std::mem::take(&mut self.stages);
-        stages.stretches(
-            seconds,
-            self,
-            |axis| axis.profile.steady(),
-            |axis, stages, moment| {
-                let start = axis.profile;
-                let was_there = axis.is_there(axis.motor);
-                axis.profile.advance(moment.span);
-                let law = motion(&axis.profile);
-                axis.motor = stages.actuator.motion(law, moment);
-                axis.load = stages.transmission.motion(axis.motor, moment);
-                // A stage that waits for the arrival sees it at its instant.
-                let is_there = axis.is_there(axis.motor);
-                if is_there && !was_there && axis.motor == law {
-                    let now = moment.now - moment.span + axis.arrival(start, moment.span);
-                    stages.actuator.arrived(true, Moment { now, span: 0.0 });
-                }
-                stages.actuator.arrived(is_there, moment);
-                std::mem::swap(&mut axis.stages, stages);
-                axis.pass(moment);
-                std::mem::swap(&mut axis.stages, stages);
-            },
-        );
-        self.stages = stages;
+        let mut rest = seconds;
+        while let Some(moment) = self.stages.stretch(&mut rest, self.profile.steady()) {
+            let start = self.profile;
+            let was_there = self.is_there(self.motor);
+            self.profile.advance(moment.span);
+            let law = motion(&self.profile);
+            self.motor = self.stages.actuator.motion(law, moment);
+            self.load = self.stages.transmission.motion(self.motor, moment);
+            // A stage that waits for the arrival sees it at its instant.
+            let is_there = self.is_there(self.motor);
+            if is_there && !was_there && self.motor == law {
+                let now = moment.now - moment.span + self.arrival(start, moment.span);
+                self.stages.actuator.arrived(true, Moment { now, span: 0.0 });
+            }
+            self.stages.actuator.arrived(is_there, moment);
+            self.pass(moment);
+        }
     }
 
     fn is_there(&self, motion: Motion) -> bool {

@@ -109,20 +109,12 @@ impl Cylinder {
             return self.stroke.advance(self.valve, seconds);
         }
         let start = self.rod.position;
-        let mut stages = std::mem::take(&mut self.stages);
-        stages.stretches(
-            seconds,
-            self,
-            |cylinder| cylinder.steady(),
-            |cylinder, stages, moment| {
-                std::mem::swap(&mut cylinder.stages, stages);
-                cylinder.move_by(moment.span);
-                cylinder.follow(moment);
-                cylinder.pass(moment);
-                std::mem::swap(&mut cylinder.stages, stages);
-            },
-        );
-        self.stages = stages;
+        let mut rest = seconds;
+        while let Some(moment) = self.stages.stretch(&mut rest, self.steady()) {
+            self.move_by(moment.span);
+            self.follow(moment);
+            self.pass(moment);
+        }
         self.rod.position - start
     }
 

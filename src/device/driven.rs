@@ -101,25 +101,17 @@ impl Driven {
             return way;
         }
         let start = self.carried;
-        let mut stages = std::mem::take(&mut self.stages);
-        stages.stretches(
-            seconds,
-            self,
-            |driven| driven.drive.steady(),
-            |driven, stages, moment| {
-                driven.travel.add(driven.drive.advance(moment.span));
-                let law = Motion { position: driven.travel.value(), velocity: driven.drive.velocity() };
-                driven.motor = stages.actuator.motion(law, moment);
-                let before = driven.load;
-                driven.load = stages.transmission.motion(driven.motor, moment);
-                let way = driven.load.position - before.position;
-                driven.carried += stages.process.carried(way, driven.load.velocity, before.velocity, moment);
-                std::mem::swap(&mut driven.stages, stages);
-                driven.pass(moment);
-                std::mem::swap(&mut driven.stages, stages);
-            },
-        );
-        self.stages = stages;
+        let mut rest = seconds;
+        while let Some(moment) = self.stages.stretch(&mut rest, self.drive.steady()) {
+            self.travel.add(self.drive.advance(moment.span));
+            let law = Motion { position: self.travel.value(), velocity: self.drive.velocity() };
+            self.motor = self.stages.actuator.motion(law, moment);
+            let before = self.load;
+            self.load = self.stages.transmission.motion(self.motor, moment);
+            let way = self.load.position - before.position;
+            self.carried += self.stages.process.carried(way, self.load.velocity, before.velocity, moment);
+            self.pass(moment);
+        }
         self.carried - start
     }
 

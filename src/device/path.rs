@@ -406,30 +406,23 @@ impl Stages {
         Moment { now: self.now.value(), span: 0.0 }
     }
 
-    /// Moves `law` by `seconds` in stretches, and gives each to `stretch`: the moment at its end. One ends where a stage
-    /// foresees a change, and where the law does: `steady` says for how long from now on it goes on as it does, so that a
-    /// stage that is exact for a parabola, or a straight line, never meets a kink within a stretch.
-    pub fn stretches<L>(
-        &mut self,
-        seconds: f64,
-        law: &mut L,
-        steady: impl Fn(&L) -> f64,
-        mut stretch: impl FnMut(&mut L, &mut Stages, Moment),
-    ) {
-        let mut rest = seconds;
-        while rest > 0.0 {
-            let change = self.paths().iter().filter_map(|path| path.next_change()).min_by(f64::total_cmp);
-            let until = change.map_or(f64::INFINITY, |at| at - self.now.value());
-            // A change that is due, or so near that time would not move, does not hold time up.
-            let ahead = |until: f64| if until > SAME_INSTANT_S { until } else { f64::INFINITY };
-            let span = rest.min(self.longest).min(ahead(until)).min(ahead(steady(law)));
-            // What rounding leaves of the whole is no stretch of its own.
-            let span = if rest - span < SAME_INSTANT_S { rest } else { span };
-            rest -= span;
-            self.now.add(span);
-            let moment = Moment { now: self.now.value(), span };
-            stretch(law, self, moment);
+    /// The next stretch of `rest`, s, which is less by it then: the moment at its end; `None` where nothing is left. One ends where a stage
+    /// foresees a change, and where the law does, which goes on as it does for `steady` from now on, s: a stage that is exact for
+    /// a parabola, or a straight line, never meets a kink within a stretch.
+    pub fn stretch(&mut self, rest: &mut f64, steady: f64) -> Option<Moment> {
+        if *rest <= 0.0 {
+            return None;
         }
+        let change = self.paths().iter().filter_map(|path| path.next_change()).min_by(f64::total_cmp);
+        let until = change.map_or(f64::INFINITY, |at| at - self.now.value());
+        // A change that is due, or so near that time would not move, does not hold time up.
+        let ahead = |until: f64| if until > SAME_INSTANT_S { until } else { f64::INFINITY };
+        let span = rest.min(self.longest).min(ahead(until)).min(ahead(steady));
+        // What rounding leaves of the whole is no stretch of its own.
+        let span = if *rest - span < SAME_INSTANT_S { *rest } else { span };
+        *rest -= span;
+        self.now.add(span);
+        Some(Moment { now: self.now.value(), span })
     }
 
     /// See [`Stage::state`].

@@ -243,27 +243,22 @@ const HALVINGS: u32 = 20;
 impl ServoAxis {
     fn advance_with_stages(&mut self, seconds: f64) {
         let mut stages = std::mem::take(&mut self.stages);
-        stages.stretches(
-            seconds,
-            self,
-            |axis| axis.steady(),
-            |axis, stages, moment| {
-                let is_ideal = axis.mode == Mode::Ideal;
-                if is_ideal {
-                    axis.motor = axis.track(stages, moment);
-                    axis.load = stages.transmission.motion(axis.motor, moment);
-                    axis.position_target.advance(moment.span);
-                    // Its speed may end with the stretch.
-                    let end = Moment { span: 0.0, ..moment };
-                    axis.motor = axis.track(stages, end);
-                    axis.load = stages.transmission.motion(axis.motor, end);
-                } else {
-                    axis.motor = axis.drive(stages, moment);
-                    axis.position_target.advance(moment.span);
-                    axis.load = stages.transmission.motion(axis.motor, moment);
-                }
-            },
-        );
+        let mut rest = seconds;
+        while let Some(moment) = stages.stretch(&mut rest, self.steady()) {
+            if self.mode == Mode::Ideal {
+                self.motor = self.track(&mut stages, moment);
+                self.load = stages.transmission.motion(self.motor, moment);
+                self.position_target.advance(moment.span);
+                // Its speed may end with the stretch.
+                let end = Moment { span: 0.0, ..moment };
+                self.motor = self.track(&mut stages, end);
+                self.load = stages.transmission.motion(self.motor, end);
+            } else {
+                self.motor = self.drive(&mut stages, moment);
+                self.position_target.advance(moment.span);
+                self.load = stages.transmission.motion(self.motor, moment);
+            }
+        }
         self.stages = stages;
     }
 

@@ -98,17 +98,11 @@ impl Device for SuctionCapGripper {
         } else if self.stages.is_nominal() {
             self.vacuum.advance(seconds);
         } else {
-            let mut stages = std::mem::take(&mut self.stages);
-            stages.stretches(
-                seconds,
-                self,
-                |_| f64::INFINITY,
-                |gripper, stages, moment| {
-                    gripper.vacuum.advance(moment.span);
-                    pass(&mut gripper.vacuum, gripper.times, (gripper.suction, gripper.blow), stages, moment);
-                },
-            );
-            self.stages = stages;
+            let mut rest = seconds;
+            while let Some(moment) = self.stages.stretch(&mut rest, f64::INFINITY) {
+                self.vacuum.advance(moment.span);
+                pass(&mut self.vacuum, self.times, (self.suction, self.blow), &mut self.stages, moment);
+            }
         }
         self.cups.vacuum = self.vacuum.holds();
     }

@@ -16,11 +16,14 @@ use super::candidate::Candidate;
 use super::ladder::{Ladder, MOST_EFFECTS, Standing, Tell, anew, is_worth_having, settle};
 use super::rung::{library_beside, rung};
 use super::unseen::Folds;
+use crate::gap::fit::{Fitted, least_squares};
 
 /// Of the excess, what must be left.
 const LEAST_LEFT: f64 = 0.1;
 /// How many candidates are stepped on.
 const STONES: usize = 4;
+/// How many are fitted for that: the best after a few steps downhill.
+const FITTED: usize = 16;
 
 /// Adds two effects to the best set if together they are worth having; whether they were.
 pub fn step_by_two(
@@ -42,11 +45,16 @@ pub fn step_by_two(
     }
     let beside = |stone: &Trial| rung(&weighed, stone, standing.excess(stone.cost), is_asked, &|_| true, tell);
     let Some(library) = library_beside(&weighed, &below, is_asked) else { return false };
+    let tried = library.len();
     let alone = library.into_par_iter().with_max_len(1);
-    let mut free: Vec<Trial> = alone.filter_map(|candidate| giving_way(&weighed, &below, candidate)).collect();
+    let mut begun: Vec<Begun> = alone.filter_map(|candidate| giving_way(&weighed, &below, candidate)).collect();
+    begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    begun.truncate(FITTED);
+    let fit = |Begun { set, at, .. }: Begun| weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()));
+    let mut free: Vec<Trial> = begun.into_par_iter().with_max_len(1).filter_map(fit).collect();
     free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let pairs: Vec<Trial> = stones(&free).iter().flat_map(beside).collect();
-    ladder.tried += free.len() + pairs.len();
+    ladder.tried += tried + pairs.len();
     let pair = pairs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
     let settled = pair.and_then(|pair| settle(bench, &weighed, pair, false)).and_then(|(pair, subject)| {
         let deeper = deepest(&bench.with(&subject), &pair, below.parameters());
@@ -62,12 +70,20 @@ pub fn step_by_two(
     is_worth
 }
 
+/// A set where a few steps downhill led.
+struct Begun {
+    set: Vec<Candidate>,
+    at: Vec<f64>,
+    cost: f64,
+}
+
 /// A candidate beside those of `below` with everything free, from near and far: what does nearly what one of them does (a lag, and a
 /// dead time) shows nothing until that gives way.
-fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<Trial> {
+fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<Begun> {
     let starts = candidate.starts.clone();
     let set: Vec<Candidate> = below.set.iter().cloned().chain([candidate]).collect();
-    let effort = anew(bench.ranges(&set).len());
+    let ranges = bench.ranges(&set);
+    let residuals = |at: &[f64]| bench.residuals(&set, at);
     let count = starts.len();
     let mut places = vec![count / 4, count / 2, (3 * count) / 4];
     places.dedup();
@@ -75,9 +91,10 @@ fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<
         let mut at = below.at[..below.parameters()].to_vec();
         at.extend(&starts[place]);
         at.extend(bench.nominal(&set));
-        bench.fit(&set, &[at], effort)
+        least_squares(&residuals, &at, &ranges, 6 + 2 * ranges.len() as u32)
     });
-    fitted.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    let Fitted { at, cost, .. } = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    Some(Begun { set, at, cost })
 }
 
 /// A drive whose speed may not follow its loop swings, and its deviance has false minima side by side along each of its figures: where
