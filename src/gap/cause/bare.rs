@@ -89,17 +89,15 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, 
         true => downhill(about(bench, &start))?,
         false => downhill(start.clone())?,
     };
-    if !bench.is_rugged() && search != Search::Downhill && is_off(&best)? {
-        let begins: [&dyn Fn(&Trial) -> Vec<f64>; 2] = [&|_| about(bench, &start), &|best| nearer(bench, &best.at)];
-        let skipped = usize::from(search == Search::Near);
-        for begin in begins.into_iter().skip(skipped) {
-            if let Some(again) = downhill(begin(&best)).filter(|again| again.cost < best.cost) {
-                best = again;
-            }
-            if !is_off(&best)? {
-                break;
-            }
-        }
+    let lower = |begin: Vec<f64>, best: Trial| downhill(begin).filter(|again| again.cost < best.cost).unwrap_or(best);
+    if search == Search::Downhill || bench.is_rugged() || !is_off(&best)? {
+        return Some((best.at, best.overrides));
+    }
+    if search == Search::All {
+        best = lower(about(bench, &start), best);
+    }
+    if is_off(&best)? {
+        best = lower(nearer(bench, &best.at), best);
     }
     Some((best.at, best.overrides))
 }
