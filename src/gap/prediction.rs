@@ -43,3 +43,53 @@ pub struct Passing {
     /// carried it.
     pub astray: f64,
 }
+
+/// How far an edge has to be moved to be another one, s: instants of reports are known no better.
+const SAME_EDGE_S: f64 = 1e-5;
+
+impl Predicted {
+    /// Whether another prediction of the same signal says something else: a level by more than `level`, RMS, in its unit; a state in
+    /// where it begins, or in an edge's direction or instant.
+    pub(super) fn differs(&self, other: &Predicted, level: f64) -> bool {
+        match (self, other) {
+            (Predicted::Level(one), Predicted::Level(other)) => {
+                let squares: f64 = one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum();
+                (squares / one.len().max(1) as f64).sqrt() > level
+            }
+            (Predicted::Edges { initial, edges }, Predicted::Edges { initial: other_initial, edges: others }) => {
+                let is_another =
+                    |(a, b): (&PredictedEdge, &PredictedEdge)| a.to != b.to || (a.at - b.at).abs() > SAME_EDGE_S;
+                initial != other_initial || edges.len() != others.len() || edges.iter().zip(others).any(is_another)
+            }
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state(initial: f64, edges: &[(f64, f64)]) -> Predicted {
+        let edge = |(at, to): &(f64, f64)| PredictedEdge { at: *at, index: 0, to: *to, part: None };
+        Predicted::Edges { initial, edges: edges.iter().map(edge).collect() }
+    }
+
+    #[test]
+    fn an_inverted_state_is_another_one_though_its_edges_come_when_they_did() {
+        let switch = state(0.0, &[(1.0, 1.0), (2.0, 0.0)]);
+        assert!(switch.differs(&state(1.0, &[(1.0, 0.0), (2.0, 1.0)]), 0.1));
+        assert!(switch.differs(&state(0.0, &[(1.0, 0.0), (2.0, 1.0)]), 0.1));
+        assert!(switch.differs(&state(0.0, &[(1.001, 1.0), (2.0, 0.0)]), 0.1));
+        assert!(switch.differs(&state(0.0, &[(1.0, 1.0)]), 0.1));
+        assert!(!switch.differs(&state(0.0, &[(1.000_001, 1.0), (2.0, 0.0)]), 0.1));
+    }
+
+    #[test]
+    fn a_level_is_another_one_beyond_what_it_may_differ_by() {
+        let level = Predicted::Level(vec![0.0, 1.0, 2.0]);
+        assert!(level.differs(&Predicted::Level(vec![0.2, 1.2, 2.2]), 0.1));
+        assert!(!level.differs(&Predicted::Level(vec![0.05, 1.05, 2.05]), 0.1));
+        assert!(!level.differs(&Predicted::Nothing, 0.1));
+    }
+}

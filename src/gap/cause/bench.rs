@@ -8,7 +8,7 @@ use super::latest::Latest;
 use super::nuisance::Nuisance;
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals, sum_of_squares};
 use crate::gap::statistics::inflation;
-use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject, WINDOW_S};
+use crate::gap::{Overrides, Prediction, Run, Score, Subject, WINDOW_S};
 use crate::plant::EffectSpec;
 
 /// The length of a block of time, s: at least some correlation times of a residual.
@@ -273,18 +273,8 @@ impl<'a> Bench<'a> {
     pub fn differ(&self, one: &Prediction, other: &Prediction) -> bool {
         let runs = self.subject.runs.iter().zip(one.runs.iter().zip(&other.runs));
         runs.into_iter().any(|(run, (one, other))| {
-            one.iter().zip(other).enumerate().any(|(signal, pair)| match pair {
-                (Predicted::Level(one), Predicted::Level(other)) => {
-                    let squares: f64 = one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum();
-                    (squares / one.len().max(1) as f64).sqrt() > 0.1 * run.floors[signal].step
-                }
-                (Predicted::Edges { edges: one, .. }, Predicted::Edges { edges: other, .. }) => {
-                    let moved =
-                        |(a, b): (&crate::gap::PredictedEdge, &crate::gap::PredictedEdge)| (a.at - b.at).abs() > 1e-4;
-                    one.len() != other.len() || one.iter().zip(other).any(moved)
-                }
-                _ => false,
-            })
+            let pairs = one.iter().zip(other).zip(&run.floors);
+            pairs.into_iter().any(|((one, other), floor)| one.differs(other, 0.1 * floor.step))
         })
     }
 }
