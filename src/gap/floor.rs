@@ -93,8 +93,12 @@ pub struct FloorCosts {
 impl FloorCosts {
     const PLACES: u32 = 32;
 
-    /// Of a `noise` evaluated with `sigma`, both in steps.
+    /// Of a `noise` evaluated with `sigma`, both in steps. Of noise that is many of them their size no longer shows: what never changed
+    /// was recorded in steps of next to nothing.
     fn new(noise: f64, sigma: f64) -> FloorCosts {
+        const MANY: f64 = 50.0;
+        let coarser = (noise / MANY).max(1.0);
+        let (noise, sigma) = (noise / coarser, sigma / coarser);
         let reach = (6.0 * noise + 1.0).ceil() as i32;
         let at = |place: u32| {
             let value = (f64::from(place) + 0.5) / f64::from(Self::PLACES) - 0.5;
@@ -128,4 +132,20 @@ pub(super) fn step_of(values: &[f64]) -> f64 {
     let same = (RESOLUTION * range).max(1e-12);
     let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > same);
     steps.fold(f64::INFINITY, f64::min).min(range.max(1e-9)).max(same)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sensor that is stuck reports one value while its model moves: its step is next to nothing.
+    #[test]
+    fn noise_of_very_many_steps_costs_what_noise_of_many_does() {
+        let [many, very_many] = [100.0, 1e9].map(|steps| FloorCosts::new(steps, 1.2 * steps).at(0.3));
+        assert!((many.0 - very_many.0).abs() < 1e-3 * many.0, "{many:?} {very_many:?}");
+        assert!((many.1 - very_many.1).abs() < 1e-3 * many.1, "{many:?} {very_many:?}");
+        // What is left of Student's cost where nothing is wrong does not hang on where a value lies between two steps.
+        let [fewer, middle] = [-0.5, 0.0].map(|place| FloorCosts::new(49.0, 58.8).at(place));
+        assert!((fewer.0 - many.0).abs() < 1e-2 * many.0 && (middle.0 - many.0).abs() < 1e-2 * many.0);
+    }
 }

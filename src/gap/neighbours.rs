@@ -1,8 +1,11 @@
 //! What a device's neighbours did, as far as they reported it: who else on its supply moves, and whether a robot's grippers hold
 //! something. Effects that hang on others ask for it; no other replay is told.
+//!
+//! A speed that is reported with noise is never zero: where a level says who moves, it is what the neighbour's model predicts of it.
 
 use std::sync::Arc;
 
+use super::prediction::{Predicted, Prediction};
 use super::subject::{Run, Subject};
 use super::track::Track;
 use super::world::{Script, Surrounding, Told};
@@ -12,9 +15,12 @@ use crate::plant::Plant;
 /// A number from an instant on, s.
 type Steps = Vec<(f64, u32)>;
 
-/// Sets what each subject's neighbours did in a run.
-pub(super) fn tell(plant: &Plant, subjects: &mut [Subject], run: usize) {
-    let moving: Vec<Steps> = subjects.iter().map(|subject| moving(subject, &subject.runs[run])).collect();
+/// Sets what each subject's neighbours did in a run, `nominal` being what is predicted of each, in their order; of one that has no
+/// prediction yet its levels are as they were reported.
+pub(super) fn tell(plant: &Plant, subjects: &mut [Subject], nominal: &[Prediction], run: usize) {
+    let predicted = |at: usize| nominal.get(at).map(|prediction| prediction.runs[run].as_slice());
+    let moving: Vec<Steps> =
+        subjects.iter().enumerate().map(|(at, subject)| moving(subject, &subject.runs[run], predicted(at))).collect();
     let held: Vec<Steps> = (0..subjects.len()).map(|at| held(plant, subjects, at, run)).collect();
     for (at, subject) in subjects.iter_mut().enumerate() {
         let others = moving.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, steps)| steps.as_slice());
@@ -32,8 +38,9 @@ fn told(at: f64, what: Surrounding) -> Told {
     Told { at, what, is_on: true }
 }
 
-/// How many actuators of a subject move, by its reports: between the look that shows it and the one before.
-fn moving(subject: &Subject, run: &Run) -> Steps {
+/// How many actuators of a subject move, by its flags and by what is `predicted` of its levels: between the look that shows it and the one
+/// before.
+fn moving(subject: &Subject, run: &Run, predicted: Option<&[Predicted]>) -> Steps {
     let ports = subject.kind.ports.len();
     let longest = run.tracks.iter().flatten().max_by_key(|track| track.grid.instants.len());
     let Some(grid) = longest.map(|track| track.grid.clone()) else { return Vec::new() };
@@ -44,7 +51,15 @@ fn moving(subject: &Subject, run: &Run) -> Steps {
         .signals
         .iter()
         .zip(&run.tracks)
-        .filter_map(|(info, track)| Some(Look { port: info.port, track: track.as_ref()?, next: 0 }))
+        .enumerate()
+        .filter_map(|(place, (info, track))| {
+            let track = track.as_ref()?;
+            let values = match predicted.map(|predicted| &predicted[place]) {
+                Some(Predicted::Level(values)) => values,
+                _ => &track.values,
+            };
+            Some(Look { port: info.port, track, values, next: 0 })
+        })
         .collect();
     for (index, at) in grid.instants.iter().enumerate() {
         looks.iter_mut().for_each(|look| now[look.port] = look.at(*at));
@@ -66,22 +81,24 @@ fn moving(subject: &Subject, run: &Run) -> Steps {
 struct Look<'a> {
     port: usize,
     track: &'a Track,
+    /// Of a level, at each instant of its track from its first.
+    values: &'a [f64],
     next: usize,
 }
 
 impl Look<'_> {
-    /// What was last reported at an instant, not before the one asked last.
+    /// What it was last at an instant, not before the one asked last.
     fn at(&mut self, at: f64) -> f64 {
         let instants = &self.track.grid.instants;
         while instants.get(self.next + 1).is_some_and(|instant| *instant <= at + 1e-9) {
             self.next += 1;
         }
-        if self.track.values.is_empty() {
+        if self.values.is_empty() {
             let edge = self.track.edges.partition_point(|edge| edge.index <= self.next);
             return edge.checked_sub(1).map_or(self.track.initial, |edge| self.track.edges[edge].to);
         }
-        let place = self.next.saturating_sub(self.track.first).min(self.track.values.len() - 1);
-        self.track.values[place]
+        let place = self.next.saturating_sub(self.track.first).min(self.values.len() - 1);
+        self.values[place]
     }
 }
 

@@ -38,6 +38,8 @@ const FURTHEST: f64 = 3.0;
 /// Steps of the age, s, and into how many the best one's neighbourhood is divided.
 const STEP_S: f64 = 2e-5;
 const FINER: i32 = 10;
+/// The least age from which slopes are taken, s.
+const LEAST_SPAN_S: f64 = 1e-4;
 /// A mean square in floors that no device comes below for any other reason than that a floor is too high.
 pub(super) const LEAST_SQUARE: f64 = 0.2;
 /// What a task's cycle and its phase have to gain, in deviance.
@@ -264,6 +266,8 @@ struct Voter {
     strain: DVector<f64>,
     /// How far a standard deviation more of each of them moves the samples, in floors.
     columns: DMatrix<f64>,
+    /// How far each second of age moves them, in floors.
+    slopes: DVector<f64>,
     /// Of the columns' squares, with what is known of the parameters beforehand.
     known: Cholesky<f64, Dyn>,
 }
@@ -278,6 +282,7 @@ impl Voter {
             free: nuisances(&subject, &nominal),
             strain: DVector::zeros(0),
             columns: DMatrix::zeros(0, 0),
+            slopes: DVector::zeros(0),
             known: Cholesky::pack_dirty(DMatrix::zeros(0, 0)),
             subject,
         };
@@ -293,42 +298,49 @@ impl Voter {
     /// Takes the nominal parameters to be what they are best under a task: how they move the samples is no straight line.
     fn centre(&mut self, task: Task) -> Result<(), EffectError> {
         let under = self.under(task);
+        self.linearise(task)?;
         let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
-            let (rest, slopes) = voter.rest(&under.predict(&[], &voter.overrides())?);
-            let rest = rest + slopes * task.age_s;
+            let rest = voter.rest(&under.predict(&[], &voter.overrides())?) + &voter.slopes * task.age_s;
             let cost = rest.norm_squared() + voter.strain.norm_squared();
             Ok((rest, cost))
         };
         let (mut rest, mut cost) = left(self)?;
         for _ in 0..CENTRINGS {
-            self.linearise(&under)?;
             let mut step = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
             let from = self.strain.clone();
             let before = cost;
             for _ in 0..SHORTENINGS {
                 // Further off nobody builds: what asks for it is a gap.
                 self.strain = (&from + &step).map(|strain| strain.clamp(-FURTHEST, FURTHEST));
-                (rest, cost) = left(self)?;
+                cost = left(self)?.1;
                 if cost <= before {
                     break;
                 }
                 step *= 0.5;
             }
+            self.linearise(task)?;
             if before - cost < NEARER {
                 break;
             }
+            (rest, cost) = left(self)?;
         }
-        self.linearise(&under)
+        Ok(())
     }
 
-    /// Finds how the samples move with the nominal parameters.
-    fn linearise(&mut self, under: &Subject) -> Result<(), EffectError> {
-        let (base, _) = self.rest(&under.predict(&[], &self.overrides())?);
+    /// Finds how the samples move with the nominal parameters, and with their age. The latter is asked of the model: between two reports
+    /// of a coarse cycle an axis may speed up and be slow again, and their difference knows nothing of it.
+    fn linearise(&mut self, task: Task) -> Result<(), EffectError> {
+        let under = self.under(task);
+        let base = self.rest(&under.predict(&[], &self.overrides())?);
+        let age_s = task.age_s.max(LEAST_SPAN_S);
+        let mut older = under.clone();
+        older.set_task(0, Task { age_s, filter_s: 0.0, ..task });
+        self.slopes = (self.rest(&older.predict(&[], &self.overrides())?) - &base) / age_s;
         self.columns = DMatrix::zeros(base.len(), self.free.len());
         for column in 0..self.free.len() {
             let mut beside = self.overrides();
             beside.0.insert(self.free[column].name.to_owned(), self.free[column].at(self.strain[column] + 1.0));
-            let (moved, _) = self.rest(&under.predict(&[], &beside)?);
+            let moved = self.rest(&under.predict(&[], &beside)?);
             self.columns.set_column(column, &(&base - &moved));
         }
         let squares = self.columns.transpose() * &self.columns + DMatrix::identity(self.free.len(), self.free.len());
@@ -371,20 +383,19 @@ impl Voter {
         kept
     }
 
-    /// What is left of each sample, and its slope, in floors; where noise remembers, as much less as it tells less.
-    fn rest(&self, prediction: &Prediction) -> (DVector<f64>, DVector<f64>) {
+    /// What is left of each sample, in floors; where noise remembers, as much less as it tells less.
+    fn rest(&self, prediction: &Prediction) -> DVector<f64> {
         let run = &self.subject.runs[0];
         let of = |&(place, k): &(usize, usize)| match (&run.tracks[place], &prediction.runs[0][place]) {
             (Some(track), Predicted::Level(values)) => {
                 let half = if self.subject.signals[place].is_count { 0.5 } else { 0.0 };
                 let floor = run.floors[place];
                 let unit = floor.rms(0.0) / floor.share().sqrt();
-                ((track.values[k] + half - values[k]) / unit, slope(track, values, k) / unit)
+                (track.values[k] + half - values[k]) / unit
             }
-            _ => (0.0, 0.0),
+            _ => 0.0,
         };
-        let (rest, slopes): (Vec<f64>, Vec<f64>) = self.kept.iter().map(of).unzip();
-        (DVector::from_vec(rest), DVector::from_vec(slopes))
+        DVector::from_iterator(self.kept.len(), self.kept.iter().map(of))
     }
 
     /// The mean square that [`Moments::cost`] came from.
@@ -395,15 +406,15 @@ impl Voter {
     /// What is left under a task, or as the run has it.
     fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
         let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
-        let (rest, slopes) = self.rest(&under.predict(&[], &self.overrides())?);
+        let (rest, slopes) = (self.rest(&under.predict(&[], &self.overrides())?), &self.slopes);
         // What the nominal parameters can take of them within their tolerances is taken off.
         let by_rest = self.columns.transpose() * &rest - &self.strain;
-        let by_slopes = self.columns.transpose() * &slopes;
+        let by_slopes = self.columns.transpose() * slopes;
         let (taken, taken_slopes) = (self.known.solve(&by_rest), self.known.solve(&by_slopes));
         Ok(Moments {
             squares: rest.norm_squared() + self.strain.norm_squared() - by_rest.dot(&taken),
             slopes: slopes.norm_squared() - by_slopes.dot(&taken_slopes),
-            products: rest.dot(&slopes) - by_rest.dot(&taken_slopes),
+            products: rest.dot(slopes) - by_rest.dot(&taken_slopes),
             count: self.count,
         })
     }
@@ -438,7 +449,13 @@ impl Moments {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
+
     use super::*;
+    use crate::device::KINDS;
+    use crate::gap::{Recording, Study};
+    use crate::plant::{self, embedded::Embedded};
+    use crate::trace::Reader;
 
     #[test]
     fn a_command_waits_for_the_task() {
@@ -464,5 +481,54 @@ mod tests {
         let moments = Moments { squares: 100.0 * 4.0, slopes: 100.0 * 4e6, products: -100.0 * 4e3, count: 100.0 };
         // Off by twice the floor at 2000 floors a second: 1 ms.
         assert!(moments.mean_square(1e-3) < 1e-9 && moments.mean_square(0.0) == 4.0);
+    }
+
+    /// Targets of an axis and of a robot's, a ramp with a corner every 0.3 s, and reports of both every 50 ms, which `value` says.
+    fn recorded(value: impl Fn(&str, usize) -> f64) -> Study {
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let mut lines: Vec<(f64, String)> = Vec::new();
+        let entry = |name: &str, value: f64| format!("{{\"name\":\"{name}\",\"value\":{value:.5}}}");
+        let mut target = 0.0;
+        for step in 0..2000_usize {
+            let corner = (step / 15 * 7919 % 23) as f64 / 11.0 - 1.0;
+            target = (target + 0.012 * corner).clamp(-0.4, 0.4);
+            let told = [entry("Axis.positionTarget", target), entry("Robot.XTarget", target)].join(",");
+            lines.push((0.0103 + 0.02 * step as f64, format!("\"automation\",\"SendValue\":[{told}]")));
+        }
+        for look in 0..800 {
+            let told = SIGNALS.map(|(device, name)| entry(&format!("{device}.{name}"), value(device, look))).join(",");
+            lines.push((0.0041 + 0.05 * look as f64, format!("\"plant\",\"SendValue\":[{told}]")));
+        }
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let lines: String = lines.iter().map(|(at, line)| format!("{{\"t\":{at:.6},\"from\":{line}}}\n")).collect();
+        let text = format!("{{\"trace\":\"kinetwin/1\",\"source\":\"plant\"}}\n{lines}");
+        let reader = Reader::new("two", Cursor::new(text.into_bytes())).expect("a trace");
+        let recording = Recording::read(&plant, "two", reader, &[]).expect("a recording");
+        Study::new(&plant, &[recording]).expect("a study")
+    }
+
+    const SIGNALS: [(&str, &str); 2] = [("Axis", "position"), ("Robot", "actualPosX")];
+
+    /// From one report to the next an axis that lags by 40 ms does anything: a slope over two of them would be half of what it is.
+    #[test]
+    fn an_age_is_found_of_reports_in_a_coarse_cycle() {
+        const AGE_S: f64 = 3e-4;
+        let still = recorded(|_, _| 0.0);
+        let aged = SIGNALS.map(|(device, name)| {
+            let mut subject = still.subject(device).expect("it moves").clone();
+            subject.set_tick(0, 0.0, 0.0);
+            subject.set_task(0, Task { age_s: AGE_S, ..Task::default() });
+            let place = subject.signals.iter().position(|info| info.property == name).expect("its position");
+            match subject.predict(&[], &Overrides::none()).expect("a prediction").runs[0][place].clone() {
+                Predicted::Level(values) => (device, values),
+                other => panic!("{other:?}"),
+            }
+        });
+        let of = |device: &str, look: usize| {
+            let (_, values) = aged.iter().find(|(name, _)| *name == device).expect("one of both");
+            values[look.min(values.len() - 1)]
+        };
+        let found = recorded(of).tasks[0];
+        assert!(found.every_s == 0.0 && (found.age_s - AGE_S).abs() < 1e-5, "{found:?}");
     }
 }

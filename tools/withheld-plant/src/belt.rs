@@ -137,8 +137,8 @@ impl Device for Belt {
         values.extend([self.beams[0].is_on(), self.beams[1].is_on()].map(f64::from));
     }
 
-    fn moves(&self) -> bool {
-        self.drive.moves()
+    fn moving(&self) -> usize {
+        usize::from(self.drive.moves())
     }
 }
 

@@ -94,8 +94,8 @@ impl Device for Gripper {
         values.push(f64::from(self.vacuum));
     }
 
-    fn moves(&self) -> bool {
-        false
+    fn moving(&self) -> usize {
+        0
     }
 }
 

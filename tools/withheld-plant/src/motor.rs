@@ -74,7 +74,7 @@ impl Device for Motor {
         values.extend([counts, self.drive.speed(), f64::from(self.enable)]);
     }
 
-    fn moves(&self) -> bool {
-        self.drive.speed().abs() > 1e-3
+    fn moving(&self) -> usize {
+        usize::from(self.drive.speed().abs() > 1e-3)
     }
 }

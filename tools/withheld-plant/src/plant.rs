@@ -16,8 +16,8 @@ pub trait Device: fmt::Debug + Send {
     fn advance(&mut self, now: f64, span: f64, others: usize);
     /// Appends what its sensors see, in the order of its signals.
     fn read(&self, now: f64, values: &mut Vec<f64>);
-    /// Whether it draws from a common supply.
-    fn moves(&self) -> bool;
+    /// How many of its drives move, and so draw from a common supply: of a robot each axis is one.
+    fn moving(&self) -> usize;
 }
 
 /// What a report is, and how its sensor scatters.
@@ -76,10 +76,10 @@ pub struct Plant {
     pub commands: Vec<(String, Kind)>,
     pub signals: Vec<Signal>,
     pub quirks: Vec<Quirk>,
-    /// How many devices besides these move, each from its instant on; sorted.
+    /// How many drives besides those of these devices move, each from its instant on; sorted.
     pub company: Vec<(f64, usize)>,
-    /// Which of the first 64 devices moved, a bit for each, from when on: as it has run so far.
-    pub moved: Vec<(f64, u64)>,
+    /// How many drives of each device moved, from when on: as it has run so far.
+    pub moved: Vec<(f64, Vec<usize>)>,
 }
 
 impl Plant {
@@ -93,10 +93,10 @@ impl Plant {
         Plant { devices, commands, signals, quirks: quirks.to_vec(), company: Vec::new(), moved: Vec::new() }
     }
 
-    /// How many devices besides `device` moved, from when on, as it has run so far.
+    /// How many drives besides those of `device` moved, from when on, as it has run so far.
     pub fn company_of(&self, device: &str) -> Vec<(f64, usize)> {
         let own = self.devices.iter().position(|(name, _)| name == device).unwrap_or_default();
-        self.moved.iter().map(|(from, moved)| (*from, (moved & !(1 << own)).count_ones() as usize)).collect()
+        self.moved.iter().map(|(from, moved)| (*from, moved.iter().sum::<usize>() - moved[own])).collect()
     }
 
     /// With only one of its devices, which no other touches, in this company.
@@ -152,16 +152,15 @@ impl Plant {
 
     /// Everything moves on by `span` until `now`.
     pub fn advance(&mut self, now: f64, span: f64) {
-        let bits = self.devices.iter().take(64).enumerate().map(|(at, (_, device))| u64::from(device.moves()) << at);
-        let moves: u64 = bits.sum();
-        if self.moved.last().is_none_or(|(_, last)| *last != moves) {
-            self.moved.push((now - span, moves));
+        let moving = || self.devices.iter().map(|(_, device)| device.moving());
+        if self.moved.last().is_none_or(|(_, last)| !moving().eq(last.iter().copied())) {
+            self.moved.push((now - span, moving().collect()));
         }
+        let own: usize = moving().sum();
         let company = self.company.partition_point(|(from, _)| *from <= now - span + 1e-12).checked_sub(1);
-        let own = self.devices.iter().filter(|(_, device)| device.moves()).count();
         let moving = own + company.map_or(0, |at| self.company[at].1);
         for (_, device) in &mut self.devices {
-            let others = moving - usize::from(device.moves());
+            let others = moving - device.moving();
             device.advance(now, span, others);
         }
     }

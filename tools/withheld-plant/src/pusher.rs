@@ -162,8 +162,8 @@ impl Device for Pusher {
         values.extend(flags.map(f64::from));
     }
 
-    fn moves(&self) -> bool {
-        self.speed.abs() > 1e-3
+    fn moving(&self) -> usize {
+        usize::from(self.speed.abs() > 1e-3)
     }
 }
 

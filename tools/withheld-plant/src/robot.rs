@@ -111,8 +111,8 @@ impl Device for Robot {
         values.extend([x, y + self.crosstalk * x, z, r]);
     }
 
-    fn moves(&self) -> bool {
-        self.axes.iter().any(|axis| axis.speed.abs() > REST)
+    fn moving(&self) -> usize {
+        self.axes.iter().filter(|axis| axis.speed.abs() > REST).count()
     }
 }
 

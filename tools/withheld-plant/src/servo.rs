@@ -199,8 +199,8 @@ impl Device for Servo {
         values.extend([position, self.speed, self.asked()]);
     }
 
-    fn moves(&self) -> bool {
-        self.speed.abs() > 1e-3
+    fn moving(&self) -> usize {
+        usize::from(self.speed.abs() > 1e-3)
     }
 }
 

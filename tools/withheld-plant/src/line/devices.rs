@@ -51,8 +51,8 @@ impl Device for LineBelt {
         values.extend([0, 1].map(|barrier| f64::from(floor.is_cut(self.at, barrier))));
     }
 
-    fn moves(&self) -> bool {
-        self.drive.moves()
+    fn moving(&self) -> usize {
+        usize::from(self.drive.moves())
     }
 }
 
@@ -89,8 +89,8 @@ impl Device for LinePusher {
         }
     }
 
-    fn moves(&self) -> bool {
-        self.pusher.moves()
+    fn moving(&self) -> usize {
+        self.pusher.moving()
     }
 }
 
@@ -107,7 +107,7 @@ impl Device for Parts {
 
     fn read(&self, _now: f64, _values: &mut Vec<f64>) {}
 
-    fn moves(&self) -> bool {
-        false
+    fn moving(&self) -> usize {
+        0
     }
 }
