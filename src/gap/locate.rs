@@ -26,6 +26,8 @@ use crate::signal_map::Kind;
 
 /// A statistic above this is no chance: χ² with one degree of freedom at 1 % over 400 tests.
 pub const THRESHOLD: f64 = 17.8;
+/// How far beyond chance a gap is one though it is less than noise and rounding are, where it goes with the motion.
+pub const FAR_BEYOND: f64 = 5.0;
 /// What moves by less than this share of a step says nothing of a device.
 const LEAST_OF_STEP: f64 = 0.1;
 
@@ -141,15 +143,7 @@ fn signal(subject: &Subject, nominal: &Prediction, place: usize, scores: &[&Sign
         (sum / total.max(1) as f64).sqrt()
     };
     let (before, floor) = (mean(|score| score.rms), mean(|score| score.floor));
-    let evidence = |score: &&SignalScore| {
-        let with_motion = match (&subject.runs[score.run].tracks[place], &nominal.runs[score.run][place]) {
-            (Some(track), Predicted::Level(values)) => {
-                with_motion(score, track, values, subject.runs[score.run].floors[place])
-            }
-            _ => 0.0,
-        };
-        above_floor(score).max(with_motion)
-    };
+    let evidence = |score: &&SignalScore| above_floor(score).max(with_motion(subject, nominal, score).evidence);
     let evidence = scores.iter().map(evidence).fold(0.0, f64::max);
     let (missing, extra) = scores.iter().fold((0, 0), |(m, e), score| (m + score.missing(), e + score.extra()));
     let alone = (missing + extra) as f64 / total.max(1) as f64;
@@ -190,13 +184,40 @@ fn above_floor(score: &SignalScore) -> f64 {
     }
 }
 
-/// The greatest gain by one regressor of the motion: what of the cost a multiple of it would take away.
-fn with_motion(score: &SignalScore, track: &Track, predicted: &[f64], floor: Floor) -> f64 {
-    let Some(level) = &score.level else { return 0.0 };
+/// What goes with the motion in one signal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Along {
+    /// What of the cost a multiple of the best regressor would take away.
+    gain: f64,
+    /// The same as a statistic that a chance keeps below [`THRESHOLD`].
+    evidence: f64,
+}
+
+/// What of each signal's cost surely goes with the motion, in the order of `score`'s: what a multiple of it would take away, 0 where
+/// that is not far beyond chance. A floor that is estimated a few per cent too high hides so much from the cost alone.
+pub fn gains_with_motion(subject: &Subject, prediction: &Prediction, score: &Score) -> Vec<f64> {
+    let of = |score: &SignalScore| {
+        let along = with_motion(subject, prediction, score);
+        if along.evidence > FAR_BEYOND * THRESHOLD { along.gain } else { 0.0 }
+    };
+    score.signals.iter().map(of).collect()
+}
+
+/// The greatest gain by one regressor of the motion.
+fn with_motion(subject: &Subject, prediction: &Prediction, score: &SignalScore) -> Along {
+    let (run, predicted) = (&subject.runs[score.run], &prediction.runs[score.run][score.signal]);
+    match (&run.tracks[score.signal], predicted) {
+        (Some(track), Predicted::Level(values)) => along(score, track, values, run.floors[score.signal]),
+        _ => Along::default(),
+    }
+}
+
+fn along(score: &SignalScore, track: &Track, predicted: &[f64], floor: Floor) -> Along {
+    let Some(level) = &score.level else { return Along::default() };
     let count = level.residual.len();
     // In a recording with blind spans samples are left out; the two lists run side by side only without.
     if count < 50 || predicted.len() != count || track.values.len() != count {
-        return 0.0;
+        return Along::default();
     }
     // Noise that remembers goes further with a motion than it looks: each sample counts less, and their sum scatters more.
     let unit = (score.floor_cost.0 / counted(level.cost.as_slice()).max(1.0) / floor.share()).max(0.02);
@@ -210,9 +231,10 @@ fn with_motion(score: &SignalScore, track: &Track, predicted: &[f64], floor: Flo
         // As a difference of the level: it must be worth a part of a step.
         let differences = regressor.iter().zip(&level.difference).map(|(x, d)| (x - mean) * d).sum::<f64>();
         let moves = (differences * differences / xx / count as f64).sqrt();
-        if moves > LEAST_OF_STEP * floor.step { xr * xr / xx / unit } else { 0.0 }
+        if moves > LEAST_OF_STEP * floor.step { xr * xr / xx } else { 0.0 }
     };
-    regressors(&level.at, predicted).iter().map(|regressor| gain(regressor)).fold(0.0, f64::max)
+    let gain = regressors(&level.at, predicted).iter().map(|regressor| gain(regressor)).fold(0.0, f64::max);
+    Along { gain, evidence: gain / unit }
 }
 
 fn counted(costs: &[f64]) -> f64 {
@@ -238,4 +260,55 @@ fn regressors(at: &[f64], value: &[f64]) -> [Vec<f64>; 6] {
     });
     let ways: Vec<f64> = std::iter::once(0.0).chain(ways).collect();
     [value.to_vec(), slope, curve, sign, at.to_vec(), ways]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::gap::Grid;
+    use crate::gap::score::LevelScore;
+
+    /// A level that swings slowly, recorded with noise of half of what its floor is thought to be, and `share` of it too much: as its score.
+    fn scored(share: f64) -> Along {
+        let law: Vec<f64> = (0..4000).map(|k| (0.01 * f64::from(k)).sin()).collect();
+        let noise = |k: usize| 0.5e-3 * (((k * 7919) % 1009) as f64 / 504.0 - 1.0) * 3.0_f64.sqrt();
+        let difference: Vec<f64> = law.iter().enumerate().map(|(k, x)| share * x + noise(k)).collect();
+        let floor = Floor { step: 1e-4, noise: 1e-3, ..Floor::default() };
+        let residual: Vec<f64> = difference.iter().map(|x| x / floor.sigma(0.0)).collect();
+        let cost: Vec<f64> = residual.iter().map(|x| x * x).collect();
+        let grid = Arc::new(Grid::of_steps(0.01, 39.99));
+        let score = SignalScore {
+            signal: 0,
+            run: 0,
+            cost: cost.iter().sum(),
+            floor_cost: (4000.0, 8000.0),
+            rms: 0.5e-3,
+            floor: 1e-3,
+            level: Some(LevelScore { at: grid.instants[..4000].to_vec(), cost, residual, difference }),
+            edges: Vec::new(),
+        };
+        let track = Track {
+            grid,
+            first: 0,
+            values: law.clone(),
+            initial: 0.0,
+            edges: Vec::new(),
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind: Vec::new(),
+        };
+        assert!(score.cost < score.floor_cost.0 && above_floor(&score) == 0.0);
+        along(&score, &track, &law, floor)
+    }
+
+    /// What costs less than its floor may go with the motion: the floor was thought too high.
+    #[test]
+    fn what_goes_with_the_motion_is_off_below_the_floor() {
+        let off = scored(4e-4);
+        // A multiple of the law takes away (4e-4)²/2 for each of 4000 samples, in floors squared.
+        assert!(off.evidence > FAR_BEYOND * THRESHOLD && (off.gain - 320.0).abs() < 20.0, "{off:?}");
+        assert!(scored(0.0).evidence < THRESHOLD);
+    }
 }

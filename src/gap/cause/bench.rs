@@ -1,5 +1,6 @@
 //! A device under test: candidates in, deviance out.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -8,7 +9,7 @@ use super::latest::Latest;
 use super::nuisance::Nuisance;
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals, sum_of_squares};
 use crate::gap::statistics::inflation;
-use crate::gap::{Overrides, Prediction, Run, Score, Subject, WINDOW_S};
+use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject, WINDOW_S};
 use crate::plant::EffectSpec;
 
 /// The length of a block of time, s: at least some correlation times of a residual.
@@ -251,6 +252,28 @@ impl<'a> Bench<'a> {
     /// How many blocks a run has.
     pub fn blocks_of(&self, run: &Run) -> usize {
         (run.ends / BLOCK_S).ceil().max(1.0) as usize
+    }
+
+    /// In how many blocks of time of all runs something is predicted to change: a level by more than a step, or a flag.
+    pub fn moving_blocks(&self, prediction: &Prediction) -> usize {
+        let block = |at: f64| (at.max(0.0) / BLOCK_S) as usize;
+        let of = |(run, predicted): (&Run, &Vec<Predicted>)| {
+            let mut moving = BTreeSet::new();
+            for (signal, predicted) in predicted.iter().enumerate() {
+                let Some(track) = &run.tracks[signal] else { continue };
+                match predicted {
+                    Predicted::Level(values) => {
+                        let pairs = track.grid.instants[track.first..].iter().zip(values.windows(2));
+                        let moved = pairs.filter(|(_, pair)| (pair[1] - pair[0]).abs() > run.floors[signal].step);
+                        moving.extend(moved.map(|(at, _)| block(*at)));
+                    }
+                    Predicted::Edges { edges, .. } => moving.extend(edges.iter().map(|edge| block(edge.at))),
+                    Predicted::Nothing => {}
+                }
+            }
+            moving.len()
+        };
+        self.subject.runs.iter().zip(&prediction.runs).map(of).sum()
     }
 
     /// The deviance of each block of time of all runs.

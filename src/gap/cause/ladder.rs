@@ -11,7 +11,7 @@ use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
 use crate::gap::fit::Effort;
 use crate::gap::statistics::{Draws, least_gain, quantile};
-use crate::gap::{Prediction, Score, Subject, THRESHOLD, evidence};
+use crate::gap::{Prediction, Score, Subject, THRESHOLD, evidence, gains_with_motion};
 
 /// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
 pub const MOST_EFFECTS: usize = 6;
@@ -195,9 +195,13 @@ impl Standing {
         Standing { floor: floor(score), worst, above }
     }
 
-    /// As `trial` leaves a device.
+    /// As `trial` leaves a device; what goes with the motion far beyond chance is above the floor, however high that is thought to be.
     pub fn of_trial(bench: &Bench<'_>, trial: &Trial) -> Option<Standing> {
-        Some(Standing::of(&bench.subject.score(&*bench.predict(&trial.set, &trial.at)?)))
+        let prediction = bench.predict(&trial.set, &trial.at)?;
+        let score = bench.subject.score(&prediction);
+        let along = gains_with_motion(bench.subject, &prediction, &score);
+        let standing = Standing::of(&score);
+        Some(Standing { above: along.into_iter().fold(standing.above, f64::max), ..standing })
     }
 
     /// What `cost` is above the floor, in all or by one signal alone.
@@ -212,7 +216,12 @@ const SHARE_OF_AN_ANSWER: f64 = 0.3;
 /// lower bound of 2.5 % needs k = 3.7.
 const LEAST_BLOCKS: f64 = 3.7;
 
-/// How many blocks hold what `next` gains over `below`, where it gains enough to be the answer and they are too few to be sure.
+/// In more blocks than this a device moves enough: a gap that shows in few of them is no lack of motion, but something that is there only
+/// now and then.
+const MOVES_ENOUGH: usize = 8;
+
+/// How many blocks hold what `next` gains over `below`, where it gains enough to be the answer, they are too few to be sure, and the device
+/// hardly moves in others.
 fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> Option<f64> {
     let below = &bench.trial(&below.set, below.at.clone())?;
     let (_, blocks) = gains(&below.blocks, &next.blocks);
@@ -220,7 +229,8 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
     let gains_enough = below.cost - next.cost >= least_gain(further, ladder.tried) * next.inflation();
     let (floor, _) = Standing::of_trial(bench, below)?.floor;
     let explains = (below.cost - next.cost) / (below.cost - floor).max(1.0);
-    (gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS).then_some(blocks)
+    let is_short = gains_enough && explains > SHARE_OF_AN_ANSWER && blocks < LEAST_BLOCKS;
+    (is_short && bench.moving_blocks(&*bench.predict(&below.set, &below.at)?) <= MOVES_ENOUGH).then_some(blocks)
 }
 
 /// What share of the best one's gain one has to have that is taken where the best is not sure.

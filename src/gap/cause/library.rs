@@ -1,13 +1,13 @@
 //! Every candidate that fits a device: each effect of the registry at each of its places, of each component.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::candidate::{Candidate, Free};
 use super::scales::Scales;
 use super::starts::{self, Clues};
 use crate::effect::{self, Build, EFFECTS, EffectDescriptor};
 use crate::gap::fit::Range;
-use crate::gap::{Predicted, Prediction, Score, Subject};
+use crate::gap::{Predicted, Prediction, Score, SignalScore, Subject, gains_with_motion};
 use crate::plant::{EffectPlace, ParameterValue};
 use crate::prototype::kind::{ParameterType, PortType};
 use crate::signal_map::Direction;
@@ -26,7 +26,7 @@ pub fn candidates(
     score: &Score,
     is_asked: &dyn Fn(&str) -> bool,
 ) -> Vec<Candidate> {
-    let library = Library { subject, nominal, score, axes: axes(subject) };
+    let library = Library { subject, nominal, score, axes: axes(subject), off: off(subject, nominal, score) };
     let asked = EFFECTS.iter().filter(|effect| is_asked(effect.id) && !RANDOM.contains(&effect.id));
     let all = asked.flat_map(|effect| match effect.build {
         Build::Swap => library.swaps(effect),
@@ -42,12 +42,25 @@ struct Library<'a> {
     score: &'a Score,
     /// The names of its axes where it has several, each with a drive.
     axes: Vec<&'static str>,
+    /// The reports that are further off than chance has it.
+    off: BTreeSet<&'a str>,
 }
 
 /// A robot's axes, by the names of their targets.
 fn axes(subject: &Subject) -> Vec<&'static str> {
     let targets = subject.kind.ports.iter().filter_map(|port| port.name.strip_suffix("Target"));
     if subject.kind.name.ends_with("Robot") { targets.collect() } else { Vec::new() }
+}
+
+/// The reports that are further off than chance has it: by what they cost above their floor, or by what goes with the motion.
+fn off<'a>(subject: &'a Subject, nominal: &Prediction, score: &Score) -> BTreeSet<&'a str> {
+    let along = gains_with_motion(subject, nominal, score);
+    let is_off = |(signal, along): &(&SignalScore, f64)| {
+        let (mean, variance) = signal.floor_cost;
+        *along > 0.0 || signal.cost - mean > 18.0_f64.max(5.0 * variance.sqrt())
+    };
+    let off = score.signals.iter().zip(along).filter(is_off);
+    off.map(|(signal, _)| subject.signals[signal.signal].property.as_str()).collect()
 }
 
 impl Library<'_> {
@@ -61,19 +74,16 @@ impl Library<'_> {
 
     /// Whether a signal is further off than chance has it.
     fn is_off(&self, property: &str) -> bool {
-        self.score.signals.iter().any(|signal| {
-            let (mean, variance) = signal.floor_cost;
-            self.subject.signals[signal.signal].property == property
-                && signal.cost - mean > 18.0_f64.max(5.0 * variance.sqrt())
-        })
+        self.off.contains(property)
     }
 
-    /// Whether what acts on an axis could matter: the axis's own report is off, or another than an axis's is.
+    /// Whether what acts on an axis could matter: the axis's own report is off, or none of an axis is, so that what is off (that the
+    /// robot has arrived) may be any axis's doing.
     fn matters(&self, component: Option<&str>) -> bool {
         let Some(axis) = self.axis(component) else { return true };
-        let reports = self.subject.signals.iter().filter(|info| self.axis(Some(&info.property)) == Some(axis));
-        let is_seen = reports.clone().count() > 0;
-        !is_seen || reports.clone().any(|info| self.is_off(&info.property))
+        let off = || self.off.iter().filter_map(|property| self.axis(Some(property)));
+        let is_seen = self.subject.signals.iter().any(|info| self.axis(Some(&info.property)) == Some(axis));
+        !is_seen || off().next().is_none() || off().any(|off| off == axis)
     }
 
     fn fits(&self, candidate: &Candidate) -> bool {

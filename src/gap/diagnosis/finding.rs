@@ -8,7 +8,7 @@ use crate::gap::cause::{
     intervals, misfit, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
-use crate::gap::{Score, Study, Subject, THRESHOLD, evidence};
+use crate::gap::{FAR_BEYOND, Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
 /// What a device's recordings say of it.
@@ -58,9 +58,6 @@ impl Finding {
 
 /// What of a gap must be explained for the answer to be more than unknown.
 const WORTH_HAVING: f64 = 0.3;
-
-/// How far beyond chance a gap is one though it is less than noise and rounding are, where it goes with something.
-const FAR_BEYOND: f64 = 5.0;
 
 /// Looks at one device. `None` where its reports are not in the recordings.
 pub(super) fn find(
