@@ -172,6 +172,12 @@ impl<'a> Bench<'a> {
         self.nuisances_beside(set).map(|nuisance| nuisance.nominal).collect()
     }
 
+    /// The nuisances beside `set` as `fitted` has them, else nominal.
+    pub fn carried(&self, set: &[Candidate], fitted: &Overrides) -> Vec<f64> {
+        let of = |nuisance: &Nuisance| fitted.0.get(nuisance.name).copied().unwrap_or(nuisance.nominal);
+        self.nuisances_beside(set).map(of).collect()
+    }
+
     /// The nuisances beside `set` by name, and how far each may be off.
     pub fn names_beside<'b>(&'b self, set: &'b [Candidate]) -> impl Iterator<Item = &'static str> + 'b {
         self.nuisances_beside(set).map(|nuisance| nuisance.name)

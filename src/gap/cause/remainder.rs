@@ -1,5 +1,7 @@
 //! What is left after the best answer: whether it still depends on something, and on what.
 
+use std::sync::Arc;
+
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Standing};
@@ -28,9 +30,9 @@ const GAINS: f64 = 8.0;
 /// What share of the gap's squares may be left of one that is explained. (Plants with equations of their own left 0.002 and less in most
 /// cases where the named effect was the true one, and 0.015 and more where it was none of the library.)
 const LEAST_SHARE: f64 = 0.01;
-/// The same where friction or play is named: real ones bend before they let go, which no law of the library does. (By the
+/// What share may be left of what friction or play explains: real ones bend before they let go, which no law of the library does. (By the
 /// figures of docs/gap-on-real-data.md two joints of a real arm leave 0.005 to 0.12 of their position's squares.)
-const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.12;
+const LEAST_SHARE_OF_FRICTION: f64 = 0.12;
 const PLAY: [&str; 3] = ["backlash", "dead-band", "hysteresis"];
 
 /// What is left.
@@ -63,15 +65,14 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let prediction = bench.predict(&best.set, &best.at)?;
     let score = bench.subject.score(&prediction);
     let bare = bench.subject.score(&*bench.predict(&[], &ladder.bare.at)?);
-    let share = (misfit(&score) / misfit(&bare).max(1e-9)).min(1.0);
+    let of_gap = |score: &Score| (misfit(score) / misfit(&bare).max(1e-9)).min(1.0);
+    let share = of_gap(&score);
     let left = best.cost - ladder.floor.0;
     let is_beyond = |left: f64, variance: f64| left > 18.0 * best.inflation() && left > 5.0 * variance.sqrt();
     // Late edges of one signal drown in what thousands of samples of a level cost less than their floor.
     let Standing { worst, above, .. } = Standing::of(&score);
-    let sticks =
-        |candidate: &Candidate| candidate.place == EffectPlace::Mechanics || PLAY.contains(&candidate.effect.id);
-    let is_friction = best.set.iter().any(sticks);
-    let is_large = share > if is_friction { LEAST_SHARE_BESIDE_FRICTION } else { LEAST_SHARE }
+    let by_friction = of_gap(&bench.subject.score(&*without_friction(bench, best)?)) - share;
+    let is_large = share > LEAST_SHARE.max(LEAST_SHARE_OF_FRICTION * by_friction)
         && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1));
     let mut depends = dependences(bench, &prediction, &score);
     let trend = if best.set.is_empty() { None } else { trend(bench, best) };
@@ -91,6 +92,16 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
         }
     }
     Some(Remainder { share, is_large, is_significant, depends_on: names, certainty })
+}
+
+/// What is predicted where nothing rubs or has play of what `best` names, and the rest is as it was fitted.
+fn without_friction(bench: &Bench<'_>, best: &Trial) -> Option<Arc<Prediction>> {
+    let sticks =
+        |candidate: &Candidate| candidate.place == EffectPlace::Mechanics || PLAY.contains(&candidate.effect.id);
+    let (set, own): (Vec<Candidate>, Vec<&[f64]>) =
+        best.values().filter(|(candidate, _)| !sticks(candidate)).map(|(candidate, at)| (candidate.clone(), at)).unzip();
+    let at = [own.concat(), bench.carried(&set, &best.overrides)].concat();
+    bench.predict(&set, &at)
 }
 
 /// A quantity that a residual may depend on, sample by sample.
