@@ -169,6 +169,11 @@ pub trait Stage: Send + Sync + fmt::Debug {
         friction
     }
 
+    /// How much its sliding [`friction`](Stage::friction) may change with the motion, N or N·m: 0 where it does not.
+    fn uneven(&self) -> f64 {
+        0.0
+    }
+
     /// The burden at a motion.
     fn burden(&mut self, burden: Burden, _motion: Motion, _moment: Moment) -> Burden {
         burden
@@ -275,6 +280,11 @@ impl Path {
     /// See [`Stage::friction`].
     pub fn friction(&mut self, friction: Friction, motion: Motion, effort: Effort) -> Friction {
         self.stages.iter_mut().fold(friction, |friction, stage| stage.friction(friction, motion, effort))
+    }
+
+    /// See [`Stage::uneven`]; of all stages together.
+    pub fn uneven(&self) -> f64 {
+        self.stages.iter().map(|stage| stage.uneven()).sum()
     }
 
     /// See [`Stage::burden`].

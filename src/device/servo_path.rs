@@ -1,9 +1,13 @@
 //! A servo axis with what stands in its signal path: friction as a set-valued law, loads, limits, and a transmission.
 //!
 //! Over a stretch the sliding friction is a constant force against the motion, so that the loop's own law stays exact; where
-//! the motion comes to rest the stretch is cut. At rest the axis stays as long as what drives it is within the sticking
-//! friction: friction there is a set of forces, not a function (the Coulomb law as a differential inclusion; V. Acary,
-//! B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008, section 1.3).
+//! the motion comes to rest the stretch is cut. A friction that changes with speed or place is that of the stretch's middle,
+//! and where it changes much the stretch is shorter (the explicit midpoint rule, of second order; E. Hairer, S. P. Nørsett, G. Wanner,
+//! Solving Ordinary Differential Equations I, Springer 1993, section II.1).
+//!
+//! At rest the axis stays as long as what drives it is within the sticking friction: friction there is a set of forces, not a function
+//! (the Coulomb law as a differential inclusion; V. Acary, B. Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer
+//! 2008, section 1.3).
 
 use super::law::servo::{Loop, Mechanics, Servo};
 use super::law::transition::Transitions;
@@ -13,6 +17,10 @@ use super::path::{Bounds, Burden, Effort, Friction, Moment, Motion, Stages};
 const HALVINGS: u32 = 20;
 /// The stretch within which a force that passes stages of its own is held constant, s.
 const EFFORT_STRETCH_S: f64 = 1e-4;
+/// By which share of all that its friction may change it may do so in half a stretch.
+const UNEVEN: f64 = 0.1;
+/// A stretch is not made shorter than this because of that, s.
+const SHORTEST_S: f64 = 6e-5;
 
 /// What the axis is without stages.
 #[derive(Clone, Copy, Debug)]
@@ -76,9 +84,6 @@ impl Way<'_> {
         let share = stages.actuator.strength(servo.force());
         bound(servo, exertion.bounds, share, moment.span);
         let effort = servo.force();
-        // What the motor's own voltage takes never reaches the gears.
-        let lost = servo.back_emf() * motion.velocity;
-        let opposing = servo.resistance() - viscous_friction * motion.velocity - lost;
         let passed = if stages.shapes_effort() {
             let acceleration = (share * exertion.passed - servo.resistance()) / burden.inertia;
             // What was commanded since then jumped.
@@ -89,36 +94,76 @@ impl Way<'_> {
             effort
         };
         exertion.passed = passed;
-        // What is left of the drive's force against the load.
-        let driving = share * (passed - lost) - opposing;
         let base = Friction { sliding: 0.0, sticking: 0.0, viscous: viscous_friction };
-        let transmitted = (share * (passed - lost)).abs() + opposing.abs();
-        let friction = stages.mechanics.friction(base, motion, Effort { net: driving, transmitted });
-        if motion.velocity == 0.0 && driving.abs() <= friction.sticking {
+        let at_first = effort_of(servo, passed, share);
+        let mut friction = stages.mechanics.friction(base, motion, at_first);
+        if motion.velocity == 0.0 && at_first.net.abs() <= friction.sticking {
             servo.wait(moment.span);
             return moment.span;
         }
-        let way = if motion.velocity == 0.0 { driving.signum() } else { motion.velocity.signum() };
-        let mut mover = **servo;
-        mover.burden(Mechanics {
-            inertia: bare.inertia / share,
-            viscous_friction: friction.viscous / share,
-            load: (bare.load + way * friction.sliding) / share,
-            pendulum: pendulum / share,
-        });
-        if stages.shapes_effort() {
-            mover.open(passed);
-            servo.wait(moment.span);
+        let way = if motion.velocity == 0.0 { at_first.net.signum() } else { motion.velocity.signum() };
+        let is_open = stages.shapes_effort();
+        let start = **servo;
+        let moved_against = |friction: Friction| {
+            let mut mover = start;
+            mover.burden(Mechanics {
+                inertia: bare.inertia / share,
+                viscous_friction: friction.viscous / share,
+                load: (bare.load + way * friction.sliding) / share,
+                pendulum: pendulum / share,
+            });
+            if is_open {
+                mover.open(passed);
+            }
+            mover
+        };
+        let mut span = moment.span;
+        let uneven = stages.mechanics.uneven();
+        if uneven > 0.0 {
+            (friction, span) = loop {
+                let mut halfway = moved_against(friction);
+                halfway.advance_again(0.5 * span, transitions);
+                // Where it comes to rest on the way, what rubs at first is nearer to what brakes it than what rubs beyond.
+                if halfway.velocity() * way <= 0.0 {
+                    break (friction, span);
+                }
+                let motion = Motion { position: halfway.position(), velocity: halfway.velocity() };
+                let passed = if is_open { passed } else { halfway.force() };
+                halfway.burden(bare);
+                let there = stages.mechanics.friction(base, motion, effort_of(&halfway, passed, share));
+                let is_even = (there.sliding - friction.sliding).abs() <= UNEVEN * uneven;
+                // A force that passed stages of its own was asked for as it is at the end of the whole stretch, which is short already.
+                if is_even || is_open || span < 2.0 * SHORTEST_S {
+                    break (there, span);
+                }
+                span *= 0.5;
+            };
+        }
+        let mut mover = moved_against(friction);
+        if is_open {
+            servo.wait(span);
         }
         let may_stick = friction.sliding.max(friction.sticking) > 0.0;
-        let taken = until_rest(&mut mover, transitions, way, may_stick, moment.span);
-        if stages.shapes_effort() {
+        let taken = until_rest(&mut mover, transitions, way, may_stick, span);
+        if is_open {
             servo.follow(&mover);
         } else {
             **servo = mover;
             servo.burden(bare);
         }
         taken
+    }
+}
+
+/// What goes through the gears of an axis that bears its bare burden, its drive exerting `passed`, of which `share` reaches it.
+fn effort_of(servo: &Servo, passed: f64, share: f64) -> Effort {
+    // What the motor's own voltage takes never reaches the gears.
+    let lost = servo.back_emf() * servo.velocity();
+    let opposing = servo.resistance() - servo.moved().viscous_friction * servo.velocity() - lost;
+    Effort {
+        // What is left of the drive's force against the load.
+        net: share * (passed - lost) - opposing,
+        transmitted: (share * (passed - lost)).abs() + opposing.abs(),
     }
 }
 

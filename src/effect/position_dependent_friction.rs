@@ -48,6 +48,10 @@ impl Stage for PositionDependentFriction {
         1e-3
     }
 
+    fn uneven(&self) -> f64 {
+        self.amplitude
+    }
+
     fn friction(&mut self, friction: Friction, motion: Motion, _effort: Effort) -> Friction {
         let more = self.amplitude * (self.number * motion.position + self.phase).sin();
         let Friction { sliding, sticking, viscous } = friction;

@@ -41,6 +41,10 @@ impl Stage for StribeckFriction {
         1e-3
     }
 
+    fn uneven(&self) -> f64 {
+        self.force
+    }
+
     fn friction(&mut self, friction: Friction, motion: Motion, _effort: Effort) -> Friction {
         let share = (-(motion.velocity / self.velocity).powi(2)).exp();
         let Friction { sliding, sticking, viscous } = friction;
@@ -53,6 +57,17 @@ impl Stage for StribeckFriction {
 #[cfg(test)]
 mod tests {
     use crate::effect::bench::{spec, with};
+
+    #[test]
+    fn what_falls_as_it_speeds_up_takes_what_its_curve_does() {
+        let friction = spec("mechanics", "stribeck-friction", None, &[("force", 40.0), ("velocity", 0.02)]);
+        let mut axis = with("ServoAxis", &[("mode", "force")], &[friction]);
+        axis.check(&[("forceTarget", 100.0)], 0.05, &[]);
+        // 20 kg and 50 N·s/m by steps of a microsecond.
+        let slope = |v: f64| (100.0 - 50.0 * v - 40.0 * (-(v / 0.02).powi(2)).exp()) / 20.0;
+        let exact = (0..50_000).fold(0.0, |v: f64, _| v + 1e-6 * slope(v + 0.5e-6 * slope(v)));
+        assert!((axis.report("velocity") - exact).abs() < 5e-5, "{} not {exact}", axis.report("velocity"));
+    }
 
     #[test]
     fn at_a_steady_speed_the_force_is_the_curves() {

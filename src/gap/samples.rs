@@ -66,7 +66,8 @@ impl<'a> Samples<'a> {
                 continue;
             }
             let slope = slope(&track.grid.instants, track.first, predicted, k);
-            let is_rest = !counts_rests && k > 0 && self.repeats(k, floor);
+            let is_rest =
+                !counts_rests && self.weighed.is_repeated(k).unwrap_or_else(|| k > 0 && self.repeats(k, floor));
             let weight = self.weighed.weight(k);
             let cost = match is_rest {
                 true => 0.0,

@@ -70,6 +70,8 @@ pub struct Run {
     pub edge_sigmas: Vec<f64>,
     /// Of each level, in the same order, where it rests.
     pub(super) rests: Vec<Vec<bool>>,
+    /// Of each level, in the same order, which samples repeat the one before; empty where each prediction says that anew.
+    pub(super) repeated: Vec<Vec<bool>>,
     /// What surrounds the device: parts that pass, as far as they were recorded.
     pub script: Arc<Script>,
     /// The same with what its neighbours did.
@@ -152,6 +154,7 @@ impl Subject {
                 floors: vec![Floor { step: 1.0, ..Floor::default() }; signals.len()],
                 edge_sigmas: vec![EDGE_SIGMA_S; signals.len()],
                 rests: vec![Vec::new(); signals.len()],
+                repeated: vec![Vec::new(); signals.len()],
                 script: Arc::default(),
                 among_neighbours: Arc::default(),
                 part_lengths: Vec::new(),

@@ -37,6 +37,9 @@ const SAME_PHASE_S: f64 = 2e-8;
 const CENTRINGS: u32 = 6;
 const SHORTENINGS: u32 = 3;
 const FURTHEST: f64 = 3.0;
+/// By how many standard deviations a nominal parameter is moved to see how the samples move with it. What a whole one does is no slope:
+/// whether a ramp ends before the next command, and where all that follows is, may turn within it.
+const NUDGE: f64 = 0.02;
 /// Steps of the age, s, and into how many the best one's neighbourhood is divided.
 const STEP_S: f64 = 2e-5;
 const FINER: i32 = 10;
@@ -348,9 +351,9 @@ impl Voter {
         self.columns = DMatrix::zeros(base.len(), self.free.len());
         for column in 0..self.free.len() {
             let mut beside = self.overrides();
-            beside.0.insert(self.free[column].name.to_owned(), self.free[column].at(self.strain[column] + 1.0));
+            beside.0.insert(self.free[column].name.to_owned(), self.free[column].at(self.strain[column] + NUDGE));
             let moved = self.rest(&under.predict(&[], &beside)?);
-            self.columns.set_column(column, &(&base - &moved));
+            self.columns.set_column(column, &((&base - &moved) / NUDGE));
         }
         let squares = self.columns.transpose() * &self.columns + DMatrix::identity(self.free.len(), self.free.len());
         if let Some(known) = squares.cholesky() {

@@ -12,6 +12,7 @@
 use super::floor::Floor;
 use super::grid::median;
 use super::prediction::{Predicted, Prediction};
+use super::samples::Samples;
 use super::subject::{Run, Subject};
 use super::track::Track;
 
@@ -30,10 +31,16 @@ const STILL: f64 = 1.5;
 pub(super) struct Weighed<'a> {
     pub floor: Floor,
     rests: &'a [bool],
+    repeated: &'a [bool],
     at_rest: f64,
 }
 
 impl Weighed<'_> {
+    /// Whether the track's `k`th sample repeats the one before it, where that is settled.
+    pub fn is_repeated(&self, k: usize) -> Option<bool> {
+        self.repeated.get(k).copied()
+    }
+
     /// What share of an observation the track's `k`th sample is: of noise that remembers less than 1; of a law with an error of its
     /// own, which hides the noise, less at rest.
     pub fn weight(&self, k: usize) -> f64 {
@@ -50,7 +57,7 @@ impl Run {
     pub(super) fn weighed(&self, signal: usize) -> Weighed<'_> {
         let cycle = self.tracks[signal].as_ref().map_or(0.0, |track| track.grid.cycle);
         let at_rest = (cycle / OBSERVATION_S).min(1.0);
-        Weighed { floor: self.floors[signal], rests: &self.rests[signal], at_rest }
+        Weighed { floor: self.floors[signal], rests: &self.rests[signal], repeated: &self.repeated[signal], at_rest }
     }
 }
 
@@ -75,6 +82,24 @@ impl Subject {
             tolerant.runs.iter_mut().for_each(|run| run.floors[signal].misfit = misfit);
         }
         tolerant
+    }
+
+    /// The same device, whose samples repeat each other where they do under `prediction`: its deviance has no steps then, as it has
+    /// where each prediction comes to rest at samples of its own.
+    pub fn repeating_as(&self, prediction: &Prediction) -> Subject {
+        let mut settled = self.clone();
+        for (run, predicted) in settled.runs.iter_mut().zip(&prediction.runs) {
+            for (signal, info) in self.signals.iter().enumerate() {
+                let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &predicted[signal]) else {
+                    continue;
+                };
+                let mut repeated = vec![false; track.values.len()];
+                Samples::new(track, values, &run.weighed(signal), info.is_count)
+                    .each(|sample| repeated[sample.index - track.first] = sample.is_rest);
+                run.repeated[signal] = repeated;
+            }
+        }
+        settled
     }
 
     /// Whether how far even a good model is off is known of it.

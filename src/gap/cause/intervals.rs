@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
-use crate::gap::fit::{Interval, Side, least_squares, profile};
+use crate::gap::SignalScore;
+use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile};
 
 /// The rise of the deviance that an interval of 95 % ends at.
 const RISE: f64 = 3.84;
@@ -18,11 +19,18 @@ pub struct Bounds {
 
 /// The intervals of all parameters of `best`'s candidates, by profile likelihood. A time is known no better than within the
 /// ticks in which the machine looks at its commands: the variance of a tick's half is added. `tick` in s, 0 for none.
+///
+/// What the deviance has to rise by is [`RISE`] times what correlated residuals exaggerate, times the dispersion: what is left above
+/// the floor is the law's own error, and leaves parameters as unsure as noise of its size would.
 pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
+    let settled = bench.predict(&best.set, &best.at).map(|there| bench.subject.repeating_as(&there));
+    let bench = &bench.with(settled.as_ref().unwrap_or(bench.subject));
     let residuals = |at: &[f64]| bench.residuals(&best.set, at);
-    let fitted = least_squares(&residuals, &best.at, &best.ranges, 2 + 2 * best.ranges.len() as u32);
+    let budget = 12 + 6 * best.ranges.len() as u32;
+    let slopes = Slopes::of(&residuals, &best.at, &best.ranges);
+    let fitted = slopes.map(|slopes| least_squares_from(slopes, &residuals, &best.at, &best.ranges, budget));
     let fitted = fitted.filter(|fitted| fitted.cost <= best.cost).unwrap_or_else(|| best.fitted());
-    let rise = RISE * best.inflation();
+    let rise = RISE * best.inflation() * dispersion(bench, best).unwrap_or(1.0);
     let times: Vec<bool> = best.set.iter().flat_map(|candidate| &candidate.free).map(|free| free.is_time).collect();
     let of = |(parameter, is_time): (usize, &bool)| {
         let interval = profile(&residuals, &fitted, &best.ranges, parameter, rise);
@@ -31,6 +39,24 @@ pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
         bounds(value, interval, blur)
     };
     times.par_iter().enumerate().map(of).collect()
+}
+
+/// How many times more than its floor a device's levels cost under `best`, at least 1. Where they are weighed by what the law leaves
+/// ([`crate::gap::Floor::misfit`]) that is in their weights already.
+///
+/// Source: quasi-likelihood (P. McCullagh, J. A. Nelder, Generalized Linear Models, Chapman & Hall 1989, section 9.2).
+fn dispersion(bench: &Bench<'_>, best: &Trial) -> Option<f64> {
+    let score = bench.subject.score(&*bench.predict(&best.set, &best.at)?);
+    let is_plain = |signal: &&SignalScore| {
+        let floor = &bench.subject.runs[signal.run].floors[signal.signal];
+        signal.level.is_some() && floor.misfit == 0.0 && floor.reach == 0.0
+    };
+    let (cost, floor) = score
+        .signals
+        .iter()
+        .filter(is_plain)
+        .fold((0.0, 0.0), |(cost, floor), signal| (cost + signal.cost, floor + signal.floor_cost.0));
+    Some(if floor > 0.0 { (cost / floor).max(1.0) } else { 1.0 })
 }
 
 fn bounds(value: f64, interval: Interval, blur: f64) -> Bounds {

@@ -15,7 +15,7 @@ use super::candidate::Candidate;
 use crate::gap::fit::Range;
 
 /// Over how many of its standard deviations a parameter's slope is a difference.
-const DIFFERENCE: f64 = 0.1;
+const DIFFERENCE: f64 = 0.02;
 /// A direction of which less than this share is left beside the others is none of its own.
 const LEAST_OWN: f64 = 1e-6;
 

@@ -3,11 +3,19 @@
 //! Source: W. Q. Meeker, L. A. Escobar, Teaching about approximate confidence regions based on maximum likelihood estimation,
 //! The American Statistician 49 (1995). Where the end lies beyond what the parameter may be, the data do not say it: it is
 //! not identifiable on that side.
+//!
+//! The others set out from where the slopes at the best say that they follow to, and are fitted from there: across a valley that is a
+//! thousand times steeper than it falls along, a deviance that is rounded leads nowhere. Source of the path: D. J. Venzon,
+//! S. H. Moolgavkar, A method for computing profile-likelihood-based confidence intervals, Applied Statistics 37 (1988).
+
+use nalgebra::{DMatrix, DVector};
 
 use super::{Fitted, Range, Residuals, least_squares, sum_of_squares};
 
 /// How often an end is looked for.
 const LOOKS: u32 = 12;
+/// A direction of which less than this share is left beside the others is none of its own.
+const LEAST_OWN: f64 = 1e-9;
 
 /// An end of an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +51,7 @@ impl Interval {
 /// The interval of `parameter` about `fitted`, in which the deviance has not risen by more than `rise` (3.84 for 95 %, times
 /// what correlated residuals exaggerate).
 pub fn profile(residuals: &Residuals<'_>, fitted: &Fitted, ranges: &[Range], parameter: usize, rise: f64) -> Interval {
-    let walk = Walk { residuals, fitted, ranges, parameter, rise };
+    let walk = Walk { residuals, fitted, ranges, parameter, rise, valley: Valley::of(fitted, parameter) };
     let (from, to) = rayon::join(|| walk.end(-1.0), || walk.end(1.0));
     Interval { from, to }
 }
@@ -54,6 +62,41 @@ struct Walk<'a> {
     ranges: &'a [Range],
     parameter: usize,
     rise: f64,
+    valley: Valley,
+}
+
+/// How the others follow a parameter to first order, and how far it may go with them until the deviance has risen by 1.
+struct Valley {
+    /// For each other parameter, in their order: its change for each unit of the parameter's.
+    follow: Vec<f64>,
+    /// Infinite where nothing is known of it.
+    spread: f64,
+}
+
+impl Valley {
+    /// With C = Jᵀ·J divided into the parameter p and the others o the deviance is least along −C(o,o)⁻¹·C(o,p), and rises there with
+    /// C(p,p) − C(p,o)·C(o,o)⁻¹·C(o,p).
+    fn of(fitted: &Fitted, parameter: usize) -> Valley {
+        let count = fitted.at.len();
+        let stiff = Valley { follow: vec![0.0; count - 1], spread: fitted.spread(parameter) };
+        if count == 1 || fitted.curvature.len() != count * count {
+            return stiff;
+        }
+        let squares = DMatrix::from_column_slice(count, count, &fitted.curvature);
+        // In spreads of each alone: their units are as far apart as can be.
+        let scales = squares.diagonal().map(|along| if along > 0.0 { along.sqrt().recip() } else { 0.0 });
+        let scaled = |row: usize, column: usize| squares[(row, column)] * scales[row] * scales[column];
+        let others: Vec<usize> = (0..count).filter(|other| *other != parameter).collect();
+        let among = DMatrix::from_fn(count - 1, count - 1, |row, column| scaled(others[row], others[column]));
+        let across = DVector::from_fn(count - 1, |row, _| scaled(others[row], parameter));
+        let Ok(follow) = among.svd(true, true).solve(&across, LEAST_OWN) else { return stiff };
+        let left = 1.0 - across.dot(&follow);
+        let follow = others.iter().zip(follow.iter()).map(|(other, by)| match scales[parameter] {
+            0.0 => 0.0,
+            scale => -by * scales[*other] / scale,
+        });
+        Valley { follow: follow.collect(), spread: stiff.spread / left.max(LEAST_OWN).sqrt() }
+    }
 }
 
 impl Walk<'_> {
@@ -62,7 +105,7 @@ impl Walk<'_> {
         let bound = if way > 0.0 { greatest } else { least };
         let best = self.fitted.at[self.parameter];
         let room = (bound - best).abs();
-        let spread = self.fitted.spread(self.parameter);
+        let spread = self.valley.spread;
         let mut others = self.fitted.at.clone();
         let (mut inside, mut inside_rise) = (0.0, 0.0);
         let mut outside: Option<(f64, f64)> = None;
@@ -102,6 +145,7 @@ impl Walk<'_> {
 
     /// How much the deviance has risen with the parameter at `value`, the others fitted anew from `others`.
     fn rise_at(&self, value: f64, others: &mut Vec<f64>) -> Option<f64> {
+        let further = value - others[self.parameter];
         others[self.parameter] = value;
         if self.ranges.len() == 1 {
             return Some(sum_of_squares(&(self.residuals)(others)?) - self.fitted.cost);
@@ -115,6 +159,7 @@ impl Walk<'_> {
         };
         let mut start = others.clone();
         start.remove(self.parameter);
+        start.iter_mut().zip(&self.valley.follow).for_each(|(other, by)| *other += by * further);
         let residuals = |rest: &[f64]| (self.residuals)(&with(rest));
         let found = least_squares(&residuals, &start, &ranges, 12 + 6 * ranges.len() as u32)?;
         *others = with(&found.at);
@@ -148,6 +193,24 @@ mod tests {
         let interval = profile(&residuals, &fitted, &[FREE; 2], 0, 3.84);
         assert!((interval.to.value() - 0.5 - 0.98).abs() < 0.06, "{interval:?}");
         assert!(interval.is_identifiable());
+    }
+
+    #[test]
+    fn along_a_steep_valley_in_small_steps_the_others_follow() {
+        // Only the sum shows, in steps of a half; what is known of the other beforehand, 0.25, is all that is known of it.
+        let residuals = |at: &[f64]| {
+            let seen = (1..=50).map(|k| (200.0 * (at[0] + at[1] - 1.0) * f64::from(k) / 50.0).round() * 0.5);
+            Some(seen.chain([at[1] / 0.25]).collect())
+        };
+        let along = (1..=50).map(|k| (2.0 * f64::from(k)).powi(2)).sum::<f64>();
+        let curvature = vec![along, along, along, along + 16.0];
+        let fitted = Fitted { at: vec![1.0, 0.0], cost: 0.0, curvature, evaluations: 0 };
+        let Interval { from, to } = profile(&residuals, &fitted, &[FREE; 2], 0, 3.84);
+        let half = 0.25 * 3.84_f64.sqrt();
+        assert!(
+            (to.value() - 1.0 - half).abs() < 0.1 * half && (1.0 - from.value() - half).abs() < 0.1 * half,
+            "{from:?} {to:?}"
+        );
     }
 
     #[test]
