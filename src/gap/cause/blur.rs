@@ -18,7 +18,7 @@ const SHARP_S: f64 = 2e-3;
 const FURTHEST_S: f64 = 0.15;
 
 /// By how much better edges are known from one look to the next.
-const NEARER: f64 = 4.0;
+const NEARER: f64 = 8.0;
 
 /// The device with its edges less well known, the least first; empty where what is off of them is not far beyond what is known.
 pub fn blurred(subject: &Subject, score: &Score) -> Vec<Subject> {
@@ -48,7 +48,7 @@ pub fn sharpened(
     bench: &Bench<'_>,
     blurred: &[Subject],
     (set, candidate): (&[Candidate], &Candidate),
-    starts: &[&[f64]],
+    starts: &[Vec<f64>],
     all: &(dyn Fn(&[f64]) -> Vec<f64> + Sync),
 ) -> Option<Vec<Vec<f64>>> {
     const FROM: usize = 2;
@@ -56,13 +56,13 @@ pub fn sharpened(
     let nearer = |subject: &Subject, from: &[f64]| {
         let there = bench.with(subject);
         let residuals = |at: &[f64]| there.residuals(set, &all(at));
-        least_squares(&residuals, from, &ranges, 8 + 6 * ranges.len() as u32)
+        least_squares(&residuals, from, &ranges, 6 + 4 * ranges.len() as u32)
     };
     let found = starts.iter().take(FROM).filter_map(|start| nearer(&blurred[0], start));
     let mut at = found.min_by(|a, b| a.cost.total_cmp(&b.cost))?.at;
     for subject in &blurred[1..] {
         at = nearer(subject, &at)?.at;
     }
-    let others = starts.iter().take(FROM).map(|start| start.to_vec());
+    let others = starts.iter().take(FROM).cloned();
     Some(std::iter::once(at).chain(others).collect())
 }

@@ -185,11 +185,25 @@ struct Glance {
     at: Vec<f64>,
     /// Other places to begin at, the best first.
     others: Vec<Vec<f64>>,
+    /// Where a search among edges that are seen from afar begins, the best first; empty where it need not.
+    afar: Vec<Vec<f64>>,
     /// By how much it costs less there than nothing.
     gain: f64,
     /// By how much it might.
     promise: f64,
     is_promising: bool,
+}
+
+impl Glance {
+    /// The same, standing where `looks` cost least.
+    fn at_the_best_of(mut self, mut looks: Vec<Look>) -> Option<Glance> {
+        looks.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut looks = looks.into_iter();
+        let first = looks.next()?;
+        (self.at, self.gain) = (first.at, sum_of_squares(&self.beside.here) - first.cost);
+        self.others = looks.take(2).map(|look| look.at).collect();
+        Some(self)
+    }
 }
 
 /// The device as it is looked at: its residuals without the candidate, and how much there is to explain.
@@ -236,6 +250,7 @@ impl Looks<'_> {
             beside,
             at: Vec::new(),
             others: Vec::new(),
+            afar: Vec::new(),
             gain: 0.0,
             promise: 0.0,
             is_promising: false,
@@ -246,7 +261,7 @@ impl Looks<'_> {
         }
         let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
         let mut promise = None;
-        let mut looks = match (&self.afar, self.is_smooth) {
+        let looks = match (&self.afar, self.is_smooth) {
             (_, true) => self.look_about(&near, &glance),
             (None, false) => self.look_at_all(&near, &glance),
             (Some((subject, residuals)), false) => {
@@ -257,28 +272,18 @@ impl Looks<'_> {
                 let mut looks = self.look_about(&sight, &glance);
                 looks.sort_by(|a, b| a.cost.total_cmp(&b.cost));
                 promise = Some(sight.promise(&glance, &looks));
-                let starts: Vec<&[f64]> = looks.iter().map(|look| look.at.as_slice()).collect();
-                let all = |at: &[f64]| self.all(&glance, at);
-                let sharp = match promise {
-                    Some(Promise { is_kept: true, .. }) => {
-                        blur::sharpened(self.bench, self.blurred, (&glance.set, &glance.candidate), &starts, &all)
-                    }
-                    _ => None,
-                };
-                let starts = sharp.unwrap_or_else(|| starts.iter().take(1).map(|start| start.to_vec()).collect());
-                starts.iter().filter_map(|start| self.look(&near, &glance, start)).collect()
+                if promise.as_ref().is_some_and(|promise| promise.is_kept) {
+                    glance.afar = looks.iter().map(|look| look.at.clone()).collect();
+                }
+                looks.first().and_then(|look| self.look(&near, &glance, &look.at)).into_iter().collect()
             }
         };
-        looks.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let promise = promise.unwrap_or_else(|| match self.is_smooth {
             true => near.promise(&glance, &looks),
             // What costs the same wherever it is begun has nothing to act on in these recordings.
             false => Promise { most: 0.0, is_kept: looks.iter().any(|look| look.moved > 1e-9) },
         });
-        let first = looks.first()?;
-        (glance.at, glance.gain) = (first.at.clone(), sum_of_squares(&glance.beside.here) - first.cost);
-        glance.others = looks.into_iter().skip(1).take(2).map(|look| look.at).collect();
-        Some(Glance { is_promising: promise.is_kept, promise: promise.most, ..glance })
+        Glance { is_promising: promise.is_kept, promise: promise.most, ..glance }.at_the_best_of(looks)
     }
 
     /// All parameters of a candidate at `at`, the nuisances where they are held.
@@ -381,8 +386,23 @@ impl Looks<'_> {
         looks
     }
 
+    /// A candidate where edges that are seen from afar, and then nearer and nearer, lead it.
+    fn sharpened(&self, glance: Glance) -> Option<Glance> {
+        if glance.afar.is_empty() {
+            return Some(glance);
+        }
+        let all = |at: &[f64]| self.all(&glance, at);
+        let of = (glance.set.as_slice(), &glance.candidate);
+        let starts = blur::sharpened(self.bench, self.blurred, of, &glance.afar, &all);
+        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let starts = starts.unwrap_or_else(|| vec![glance.at.clone()]);
+        let looks = starts.iter().filter_map(|start| self.look(&near, &glance, start)).collect();
+        glance.at_the_best_of(looks)
+    }
+
     /// A few steps downhill.
     fn fit(&self, glance: Glance) -> Option<Glance> {
+        let glance = self.sharpened(glance)?;
         let ranges: Vec<_> = glance.candidate.ranges().collect();
         let residuals = |at: &[f64]| self.residuals(&glance, at);
         let fitted = least_squares(&residuals, &glance.at, &ranges, 4 + 4 * ranges.len() as u32)?;
