@@ -72,7 +72,7 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     // Late edges of one signal drown in what thousands of samples of a level cost less than their floor.
     let Standing { worst, above, .. } = Standing::of(&score);
     let by_friction = of_gap(&bench.subject.score(&*without_friction(bench, best)?)) - share;
-    let is_large = share > LEAST_SHARE.max(LEAST_SHARE_OF_FRICTION * by_friction)
+    let is_large = share > may_be_left(by_friction)
         && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1));
     let mut depends = dependences(bench, &prediction, &score);
     let trend = if best.set.is_empty() { None } else { trend(bench, best) };
@@ -94,12 +94,20 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     Some(Remainder { share, is_large, is_significant, depends_on: names, certainty })
 }
 
+/// What share of a gap may be left of which friction and play explain such a share.
+fn may_be_left(by_friction: f64) -> f64 {
+    LEAST_SHARE.max(LEAST_SHARE_OF_FRICTION * by_friction)
+}
+
 /// What is predicted where nothing rubs or has play of what `best` names, and the rest is as it was fitted.
 fn without_friction(bench: &Bench<'_>, best: &Trial) -> Option<Arc<Prediction>> {
     let sticks =
         |candidate: &Candidate| candidate.place == EffectPlace::Mechanics || PLAY.contains(&candidate.effect.id);
-    let (set, own): (Vec<Candidate>, Vec<&[f64]>) =
-        best.values().filter(|(candidate, _)| !sticks(candidate)).map(|(candidate, at)| (candidate.clone(), at)).unzip();
+    let (set, own): (Vec<Candidate>, Vec<&[f64]>) = best
+        .values()
+        .filter(|(candidate, _)| !sticks(candidate))
+        .map(|(candidate, at)| (candidate.clone(), at))
+        .unzip();
     let at = [own.concat(), bench.carried(&set, &best.overrides)].concat();
     bench.predict(&set, &at)
 }
@@ -311,6 +319,13 @@ fn spans(bench: &Bench<'_>, score: &Score) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A play of which nobody would notice that it is gone excuses nothing that is left beside it.
+    #[test]
+    fn what_friction_may_leave_is_a_share_of_what_it_explains() {
+        assert_eq!([0.0, 0.02, 1.0].map(may_be_left), [0.01, 0.01, 0.12]);
+        assert!((may_be_left(0.5) - 0.06).abs() < 1e-12);
+    }
 
     #[test]
     fn the_vertex_of_a_parabola_is_found() {

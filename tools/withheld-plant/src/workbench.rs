@@ -271,3 +271,15 @@ impl Bench {
         (!shows || is_its_strengths(found.1, at(WEAKER * strong).1)).then_some(found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Edges that a tenth of a delay moves out of their reports are a tenth of those that all of it does, and D is a root of their number.
+    #[test]
+    fn a_strength_shows_by_itself_where_a_tenth_of_it_shows_less() {
+        assert!(is_its_strengths(50.0, 5.0) && is_its_strengths(50.0, 50.0 / 10.0_f64.sqrt()));
+        assert!(!is_its_strengths(140.0, 139.0));
+    }
+}
