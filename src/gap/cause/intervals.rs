@@ -20,7 +20,7 @@ pub struct Bounds {
 /// The intervals of all parameters of `best`'s candidates, by profile likelihood. A time is known no better than within the
 /// ticks in which the machine looks at its commands: the variance of a tick's half is added. `tick` in s, 0 for none.
 ///
-/// What the deviance has to rise by is [`RISE`] times what correlated residuals exaggerate, times the dispersion: what is left above
+/// What the deviance has to rise by is that of 95 % (3.84) times what correlated residuals exaggerate, times the dispersion: what is left above
 /// the floor is the law's own error, and leaves parameters as unsure as noise of its size would.
 pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
     let settled = bench.predict(&best.set, &best.at).map(|there| bench.subject.repeating_as(&there));
