@@ -31,6 +31,8 @@ const PHASES: u32 = 16;
 const HALVINGS: u32 = 9;
 /// Of how many cycles, the best first, the phase is found nearer before one is chosen.
 const NEARER_TASKS: usize = 3;
+/// How often its phase and the nominal parameters are looked for, the one beside the other.
+const ROUNDS: usize = 3;
 /// Phases no further apart are one, s.
 const SAME_PHASE_S: f64 = 2e-8;
 /// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
@@ -92,12 +94,9 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
     voters.par_iter_mut().try_for_each(|voter| voter.centre(Task::default()))?;
     let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
     let before: Vec<f64> = now.iter().map(|moments| moments.cost(0.0)).collect();
-    let mut best = Best::of(&voters, cycle)?;
-    let found = best.task;
-    voters.par_iter_mut().try_for_each(|voter| voter.centre(found))?;
-    best = best.nearby(&voters)?;
+    let mut best = Best::of(&mut voters, cycle)?;
     best.between_commands(&voters)?;
-    if found.every_s > 0.0 {
+    if best.task.every_s > 0.0 {
         // Whether there is such a task at all is asked of nominal parameters that were found without one, too.
         let at_once = Best::at_once(&mut voters)?;
         best = if at_once.cost < best.cost { at_once } else { best };
@@ -187,24 +186,50 @@ impl Best {
         Best { cost: f64::INFINITY, task: Task::default(), costs: Vec::new() }
     }
 
-    /// The best of all tasks.
-    fn of(voters: &[Voter], cycle: f64) -> Result<Best, EffectError> {
-        let mut each = Vec::new();
-        for every_s in TASKS_S.into_iter().filter(|every| *every <= OF_CYCLE * cycle + 1e-12) {
-            let mut best = Best::none();
-            let phases = if every_s > 0.0 { PHASES } else { 1 };
-            for phase in 0..phases {
-                let phase_s = f64::from(phase) / f64::from(PHASES) * every_s;
-                best.weigh(voters, Task { every_s, phase_s, ..Task::default() })?;
-            }
-            each.push(best);
-        }
+    /// The best of all tasks; the voters as they are best under it.
+    fn of(voters: &mut Vec<Voter>, cycle: f64) -> Result<Best, EffectError> {
+        let tasks = TASKS_S.into_iter().filter(|every| *every <= OF_CYCLE * cycle + 1e-12);
+        let mut each = tasks.map(|every_s| Best::of_phases(voters, every_s)).collect::<Result<Vec<_>, _>>()?;
         // Between two of these phases lie commands, and one that a drive takes up a cycle late may outweigh all others: a wrong cycle
         // may seem better than the true one until its phase is known nearer.
         each.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let nearer = each.into_iter().take(NEARER_TASKS).map(|best| best.nearby(voters));
-        let nearer = nearer.collect::<Result<Vec<_>, _>>()?;
-        Ok(nearer.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost)).unwrap_or(Best::none()))
+        let settled = each.into_iter().take(NEARER_TASKS).map(|best| best.settled(voters));
+        let settled = settled.collect::<Result<Vec<_>, _>>()?;
+        let Some((best, centred)) = settled.into_iter().min_by(|a, b| a.0.cost.total_cmp(&b.0.cost)) else {
+            return Ok(Best::none());
+        };
+        *voters = centred;
+        Ok(best)
+    }
+
+    /// The best of the phases of a task that are tried at first.
+    fn of_phases(voters: &[Voter], every_s: f64) -> Result<Best, EffectError> {
+        let mut best = Best::none();
+        let phases = if every_s > 0.0 { PHASES } else { 1 };
+        for phase in 0..phases {
+            let phase_s = f64::from(phase) / f64::from(PHASES) * every_s;
+            best.weigh(voters, Task { every_s, phase_s, ..Task::default() })?;
+        }
+        Ok(best)
+    }
+
+    /// The best phase of this task's cycle, and the voters as they are best under it. A motor whose acceleration is a per cent off and
+    /// a task hide in each other: a phase that is found beside the one is looked for anew beside the other, until that agrees.
+    fn settled(self, voters: &[Voter]) -> Result<(Best, Vec<Voter>), EffectError> {
+        let mut voters = voters.to_vec();
+        let mut best = self.nearby(&voters)?;
+        for _ in 0..ROUNDS {
+            let (told, found) = (best.cost, best.task);
+            voters.par_iter_mut().try_for_each(|voter| voter.centre(found))?;
+            best = best.nearby(&voters)?;
+            // What was told by slopes alone.
+            if (told - best.cost).abs() < NEARER {
+                break;
+            }
+            let anew = Best::of_phases(&voters, found.every_s)?.nearby(&voters)?;
+            best = if anew.cost < best.cost { anew } else { best };
+        }
+        Ok((best, voters))
     }
 
     /// The best task with its phase between its neighbours, from voters that may have changed since.
@@ -267,6 +292,7 @@ impl Best {
 }
 
 /// A device that has a say: what of its levels moves, and how that goes with nominal parameters that may be off.
+#[derive(Clone)]
 struct Voter {
     subject: Subject,
     /// Samples that move, by signal and place in its track.

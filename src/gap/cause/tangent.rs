@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
+use crate::gap::Overrides;
 use crate::gap::fit::Range;
 
 /// Over how many of its standard deviations a parameter's slope is a difference.
@@ -22,7 +23,7 @@ const LEAST_OWN: f64 = 1e-6;
 /// The nuisances about a trial: where they are, and how the residuals of levels change with them.
 pub struct Tangent {
     names: Vec<&'static str>,
-    at: Vec<f64>,
+    at: Overrides,
     /// The residuals there, those of the nuisances' tolerances left out.
     here: Vec<f64>,
     slopes: Vec<Vec<f64>>,
@@ -32,7 +33,6 @@ impl Tangent {
     /// About `below`. Edges have no slopes: where a device reports nothing else, the nuisances stay where they are.
     pub fn new(bench: &Bench<'_>, below: &Trial) -> Option<Tangent> {
         let own = below.parameters();
-        let at = below.at[own..].to_vec();
         let names: Vec<&'static str> = bench.names_beside(&below.set).collect();
         let prediction = bench.predict(&below.set, &below.at)?;
         let is_level = bench.subject.score(&prediction).are_levels();
@@ -50,20 +50,12 @@ impl Tangent {
             true => (0..names.len()).map(slope).collect(),
             false => Some(Vec::new()),
         };
-        Some(Tangent { names, at, here, slopes: slopes? })
-    }
-
-    /// Where the nuisances beside `set` are.
-    pub fn carried(&self, bench: &Bench<'_>, set: &[Candidate]) -> Vec<f64> {
-        let of = |(name, nominal): (&'static str, f64)| {
-            self.names.iter().position(|known| *known == name).map_or(nominal, |place| self.at[place])
-        };
-        bench.names_beside(set).zip(bench.nominal(set)).map(of).collect()
+        Some(Tangent { names, at: below.overrides.clone(), here, slopes: slopes? })
     }
 
     /// What takes the part that the nuisances beside `set` explain out of the residuals of `set`.
     pub fn beside(&self, bench: &Bench<'_>, set: &[Candidate]) -> Beside {
-        let carried = self.carried(bench, set);
+        let carried = bench.carried(set, &self.at);
         let beside: Vec<&'static str> = bench.names_beside(set).collect();
         let strains = bench.deviations_beside(set);
         let mut slopes: Vec<Vec<f64>> = Vec::with_capacity(beside.len());

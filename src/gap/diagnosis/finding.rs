@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bare, Bench, Bounds, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers, climb,
+    Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers, climb,
     intervals, misfit, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
@@ -166,14 +166,16 @@ fn name_what_lets_go_at_once(finding: &mut Finding) {
     }
 }
 
-/// Of the effects that give the same motion the plainest is named; a nominal parameter that gives it too is another name for it.
+/// Of the effects that give the same motion one without any number is named, such as metres that are told as millimetres: that a number
+/// could be what does the same is no chance. Else it is the plainest; a nominal parameter that gives it too is another name for it.
 fn name_the_plainest(finding: &mut Finding) {
+    let rank = |candidate: &Candidate| (!candidate.free.is_empty(), plainness(candidate));
     for answer in &mut finding.answers {
         let best = &mut finding.ladder.best;
-        let named = plainness(&best.set[answer.place]);
+        let named = rank(&best.set[answer.place]);
         let same = answer.alternatives.iter().enumerate().filter(|(_, other)| other.is_same);
-        let plainest = same.min_by_key(|(_, other)| plainness(other.candidate()));
-        let Some(at) = plainest.filter(|(_, other)| plainness(other.candidate()) < named).map(|(at, _)| at) else {
+        let plainest = same.min_by_key(|(_, other)| rank(other.candidate()));
+        let Some(at) = plainest.filter(|(_, other)| rank(other.candidate()) < named).map(|(at, _)| at) else {
             continue;
         };
         // The set of an alternative has the candidate last; only of a set of one its place is the same.
@@ -183,7 +185,10 @@ fn name_the_plainest(finding: &mut Finding) {
         let trial = std::mem::replace(&mut answer.alternatives[at].trial, best.clone());
         *best = trial;
         if !best.set[0].is_parameter_error() {
-            let is_alias = |other: &Alternative| other.is_same && other.candidate().is_parameter_error();
+            let is_certain = best.set[0].free.is_empty();
+            let holds_it = |other: &Alternative| is_certain && !other.candidate().free.is_empty();
+            let is_alias =
+                |other: &Alternative| other.is_same && (other.candidate().is_parameter_error() || holds_it(other));
             let aliases: f64 =
                 answer.alternatives.iter().filter(|other| is_alias(other)).map(|other| other.weight).sum();
             answer.alternatives.retain(|other| !is_alias(other));
