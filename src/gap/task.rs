@@ -26,9 +26,10 @@ pub const MOST_AGE_S: f64 = 2.5e-3;
 const TASKS_S: [f64; 7] = [0.0, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3];
 /// What part of a cycle a task may be at most.
 const OF_CYCLE: f64 = 0.2;
-/// How many phases of a task are tried; then nearer and nearer to the best, so many times.
-const PHASES: u32 = 16;
-const HALVINGS: u32 = 9;
+/// How many phases of a task are tried; then nearer and nearer to the best, so many times. Of a motor that turns round a hundred times each
+/// command that is taken up a cycle late is counts for ever after: phases further apart than that miss the valley in which the best one lies.
+const PHASES: u32 = 64;
+const HALVINGS: u32 = 7;
 /// Of how many cycles, the best first, the phase is found nearer before one is chosen.
 const NEARER_TASKS: usize = 3;
 /// How often its phase and the nominal parameters are looked for, the one beside the other.
@@ -154,7 +155,7 @@ fn phases_near(voters: &[Voter], task: Task) -> Vec<f64> {
 
 /// The same, of commands given at these instants, s.
 fn phases_between(commands: impl Iterator<Item = f64>, task: Task) -> Vec<f64> {
-    const REACH: f64 = 1.5;
+    const REACH: f64 = 6.0;
     let Task { every_s, phase_s, .. } = task;
     let reach = REACH / f64::from(PHASES) * every_s;
     // By how much later than the phase a command comes, at most half a cycle.
