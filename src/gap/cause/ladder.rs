@@ -6,12 +6,12 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
-use super::rung::rung;
+use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
 use crate::gap::fit::Effort;
 use crate::gap::statistics::{Draws, least_gain, quantile};
-use crate::gap::{Prediction, Score, Subject, THRESHOLD, evidence, gains_with_motion};
+use crate::gap::{FAR_BEYOND, Prediction, Score, Subject, THRESHOLD, evidence, gains_with_motion};
 
 /// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
 pub const MOST_EFFECTS: usize = 6;
@@ -46,6 +46,8 @@ pub struct Ladder {
     pub bare: Trial,
     /// What its deviance would be where nothing is wrong, and the variance of that.
     pub floor: (f64, f64),
+    /// What an effect takes away of the bare model though nothing about it is off; 0 where something is, or nothing goes with one.
+    pub beneath: f64,
     /// The best set; the bare model where no effect is worth having.
     pub best: Trial,
     /// The device, weighed by what the best set leaves: what `best` and `singles` were scored with.
@@ -92,6 +94,7 @@ pub fn climb(
         best: bare.clone(),
         bare,
         floor,
+        beneath: 0.0,
         subject,
         singles: vec![],
         near: vec![],
@@ -100,7 +103,12 @@ pub fn climb(
         folds: Folds::Long,
     };
     if evidence(bench.subject, &prediction) <= THRESHOLD {
-        return Some(ladder);
+        let least = FAR_BEYOND * THRESHOLD * ladder.bare.inflation();
+        let found = beneath(bench, &ladder.bare, least, is_asked).unwrap_or(0.0);
+        if found <= least {
+            return Some(ladder);
+        }
+        ladder.beneath = found;
     }
     ladder.subject = bench.subject.tolerant(&prediction);
     ladder.best = bench.with(&ladder.subject).trial(&[], ladder.bare.at.clone())?;
@@ -146,13 +154,14 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
-    if standing.excess(plain.cost) < least_gain(1, 1) * plain.inflation() {
+    let beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
+    if standing.excess(plain.cost).max(beneath) < least_gain(1, 1) * plain.inflation() {
         return Rung::Left;
     }
     let subject = ladder.subject.clone();
     let weighed = bench.with(&subject);
     let Some(standing) = Standing::of_trial(&weighed, &below) else { return Rung::Left };
-    let excess = standing.excess(below.cost);
+    let excess = standing.excess(below.cost).max(beneath);
     let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
     let choices = choose(bench, &weighed, &below, &rivals);

@@ -59,8 +59,14 @@ fn off<'a>(subject: &'a Subject, nominal: &Prediction, score: &Score) -> BTreeSe
         let (mean, variance) = signal.floor_cost;
         *along > 0.0 || signal.cost - mean > 18.0_f64.max(5.0 * variance.sqrt())
     };
-    let off = score.signals.iter().zip(along).filter(is_off);
-    off.map(|(signal, _)| subject.signals[signal.signal].property.as_str()).collect()
+    let property = |signal: &SignalScore| subject.signals[signal.signal].property.as_str();
+    let off: BTreeSet<&str> =
+        score.signals.iter().zip(along).filter(is_off).map(|(signal, _)| property(signal)).collect();
+    // Where none is, what is looked for is less than that, and may be of any.
+    match off.is_empty() {
+        true => score.signals.iter().filter(|signal| signal.level.is_some()).map(property).collect(),
+        false => off,
+    }
 }
 
 impl Library<'_> {

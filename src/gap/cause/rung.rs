@@ -20,6 +20,7 @@ use super::starts::UNLIMITED;
 use super::tangent::{Beside, Tangent, product};
 use crate::gap::fit::{Effort, least_squares, search, sum_of_squares};
 use crate::gap::{Prediction, Score, Subject};
+use crate::plant::EffectPlace;
 
 /// What a candidate must explain to be looked at closely.
 const PROMISING: f64 = 0.02;
@@ -91,6 +92,55 @@ pub fn rung(
         false => bench.trial(&glance.set, looks.all(&glance, &glance.at)),
     });
     distinct(trials.collect())
+}
+
+/// Effects of one parameter that move levels each in a way of its own; what others do goes with one of them, or with the motion itself.
+const WITNESSES: [&str; 9] = [
+    "acceleration-limit",
+    "backlash",
+    "constant-force",
+    "coulomb-friction",
+    "dead-band",
+    "direction-asymmetry",
+    "first-order-lag",
+    "input-filter",
+    "jerk-limit",
+];
+
+/// What an effect takes away of a device's deviance though nothing that is asked of all motions shows that anything is off: the greatest
+/// gain of those [`WITNESSES`] that promise the most, each fitted with all nominal parameters beside it. `None` where nothing promises as much as
+/// `least`.
+pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<f64> {
+    /// The square of a whitened distance that shows clearly: a start that moves the levels by much more says nothing of one.
+    const CLEAR: f64 = 1000.0;
+    /// How many are fitted.
+    const FITTED: usize = 3;
+    let prediction = bench.predict(&[], &bare.at)?;
+    let score = bench.subject.score(&prediction);
+    if bench.is_rugged() || !score.are_levels().contains(&true) {
+        return None;
+    }
+    let tangent = Tangent::new(bench, bare)?;
+    let looks = Looks { bench, below: bare, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true };
+    let is_asked = |id: &str| is_asked(id) && WITNESSES.contains(&id);
+    let mut library = candidates_beside(bench, bare, (&prediction, &score), &is_asked);
+    library.retain(|candidate| candidate.place != EffectPlace::ReportLink && candidate.place != EffectPlace::Sensor);
+    let glances = library.into_par_iter().with_max_len(1).filter_map(|candidate| looks.glance(candidate));
+    let mut glances: Vec<Glance> = glances.filter(|glance| glance.promise > least).collect();
+    glances.sort_by(|a, b| b.promise.total_cmp(&a.promise));
+    glances.truncate(FITTED);
+    if glances.is_empty() {
+        return None;
+    }
+    let fit = |set: &[Candidate], at: Vec<f64>| bench.fit(set, std::slice::from_ref(&at), anew(at.len()));
+    // An effect is no better for what the nominal parameters alone would do.
+    let without = fit(&[], bare.at.clone()).map_or(bare.cost, |fitted| fitted.cost.min(bare.cost));
+    let with = glances.par_iter().with_max_len(1).filter_map(|glance| {
+        let fitted = fit(&glance.set, looks.all(glance, &glance.at))?;
+        let there = bench.predict(&fitted.set, &fitted.at)?;
+        bench.differ(&prediction, &there).then_some(fitted.cost)
+    });
+    Some(without - with.reduce(|| without, f64::min))
 }
 
 /// All candidates that the library has beside the effects of `below`.

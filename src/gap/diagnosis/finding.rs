@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers, climb,
-    intervals, misfit, plainness, remainder,
+    Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers,
+    climb, intervals, misfit, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
 use crate::gap::{FAR_BEYOND, Score, Study, Subject, THRESHOLD, evidence};
