@@ -7,7 +7,7 @@ use std::io::BufReader;
 use std::process::Command;
 use std::time::Duration;
 
-use kinetwin::gap::Recording;
+use kinetwin::gap::{Recording, Study, locate};
 use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose, kept_back};
 use kinetwin::gap::report::{Report, Verdict};
 use kinetwin::plant::Plant;
@@ -31,10 +31,13 @@ const DOZEN: [&str; 12] = [
 ];
 
 fn recording(plant: &Plant, case: u32, which: &str) -> Recording {
-    let path = format!("../shared/data/rig-sample/case-{case:02}/{which}.cps.jsonl.zst");
-    let file = File::open(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let reader = Reader::new(&path, BufReader::new(file)).expect("a trace");
-    Recording::read(plant, &path, reader, &[]).expect("a trace of the rig")
+    read(plant, &format!("../shared/data/rig-sample/case-{case:02}/{which}.cps.jsonl.zst"))
+}
+
+fn read(plant: &Plant, path: &str) -> Recording {
+    let file = File::open(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let reader = Reader::new(path, BufReader::new(file)).expect("a trace");
+    Recording::read(plant, path, reader, &[]).expect("a trace of the rig")
 }
 
 fn diagnosed(case: u32) -> Report {
@@ -136,6 +139,28 @@ fn an_axis_errs_once_per_revolution() {
     check_value(&report, "once-per-revolution-error", "amplitude", 0.007_332_6);
     check_value(&report, "once-per-revolution-error", "period", 0.04);
     check_shrinks(&report, 0.1);
+}
+
+/// Friction of 0.074 N of an axis that is 20 kg: each of its levels costs less than its floor, and goes with nothing of the motion.
+#[test]
+fn friction_that_no_level_shows_by_itself_is_found_by_what_it_takes_away() {
+    let plant = model::load("models/rig-toleranced").expect("the rig");
+    let axis = || vec![read(&plant, "tests/data/axis-that-rubs-a-little.cps.jsonl.zst")];
+    let study = Study::new(&plant, &axis()).expect("a study");
+    assert!(locate(&study).devices.iter().all(|device| !device.own));
+    let options = Options {
+        is_asked: &|id| DOZEN.contains(&id),
+        is_meant: &|name| name == "Axis",
+        is_stopped: &|| false,
+        tell: &|_| {},
+    };
+    // What is left of the gap is not asked for, so that the training does for the recording kept back.
+    let Diagnosis { report, .. } = diagnose(&plant, &axis(), &axis(), &options).expect("a diagnosis");
+    assert_eq!(report.verdict, Verdict::Effect, "{}", report.to_json());
+    check_cause(&report, "Axis", None, "coulomb-friction");
+    let [cause] = report.cause.as_slice() else { panic!("{}", report.to_json()) };
+    let force = cause.parameters[0].value;
+    assert!((0.06..0.09).contains(&force), "{force}");
 }
 
 #[test]

@@ -604,6 +604,18 @@ mod tests {
         assert!(found.every_s == told.every_s && near(|task| task.phase_s) && near(|task| task.age_s), "{found:?}");
     }
 
+    /// Of a hundred instants at which a command comes a cycle later, seven lie between any two of sixteen phases.
+    #[test]
+    fn a_task_is_found_whose_phase_lies_in_a_narrow_valley() {
+        let told = Task { every_s: 5e-4, phase_s: 1.151e-4, age_s: 9.1e-4, filter_s: 0.0 };
+        let found = found(told, 19.9);
+        let near = |of: fn(&Task) -> f64, by: f64| (of(&found) - of(&told)).abs() < by;
+        assert!(
+            found.every_s == told.every_s && near(|task| task.phase_s, 1e-5) && near(|task| task.age_s, 1e-5),
+            "{found:?}"
+        );
+    }
+
     /// A little beyond what it is built to, the motor's ramps over three steps would end before the next command: what a whole standard
     /// deviation more does to its encoder is not what a hundredth of it does.
     #[test]

@@ -29,6 +29,8 @@ pub const UNLIMITED: f64 = 1e8;
 /// How fast what hangs on a spring swings where the search for it begins, rad/s, and how fast it may.
 const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0];
 const STIFFEST: f64 = 3000.0;
+/// How long vacuum holds where the search for a leak begins, s.
+const HOLDS_S: &[f64] = &[0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0, 5.0, 10.0];
 /// The longest time that is searched for, s.
 const LONGEST_S: f64 = 3.0;
 /// The most starts of one candidate.
@@ -201,6 +203,8 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
             let most = clues.scales.speed;
             (range(1e-3, most.max(2e-3), 0.02 * most), times(&[0.003, 0.03, 0.2], most))
         }
+        // How long vacuum holds: a leak that lets go after any grip's end does nothing.
+        ("leak", _) => (range(least, 100.0, 0.1), HOLDS_S.iter().rev().map(|hold| 1.0 / hold).collect()),
         ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
         ("clock-drift", _) => (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),
         ("drift", _) => (range(-unit, unit, 1e-3 * unit), times(&[1e-4, -1e-4, 1e-2, -1e-2], unit)),
