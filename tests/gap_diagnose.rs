@@ -7,9 +7,9 @@ use std::io::BufReader;
 use std::process::Command;
 use std::time::Duration;
 
-use kinetwin::gap::{Recording, Study, locate};
 use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose, kept_back};
 use kinetwin::gap::report::{Report, Verdict};
+use kinetwin::gap::{Recording, Study, locate};
 use kinetwin::plant::Plant;
 use kinetwin::run::model;
 use kinetwin::time::Instant;

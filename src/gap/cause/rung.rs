@@ -364,7 +364,10 @@ impl Looks<'_> {
     fn look_about(&self, sight: &Sight<'_>, glance: &Glance) -> Vec<Look> {
         let candidate = &glance.candidate;
         let [free] = candidate.free.as_slice() else {
-            return candidate.starts.iter().filter_map(|start| self.look(sight, glance, start)).collect();
+            let mut looks: Vec<Look> =
+                candidate.starts.iter().filter_map(|start| self.look(sight, glance, start)).collect();
+            looks.extend(self.look_ahead_of_several(sight, glance, &looks));
+            return looks;
         };
         let parameter = candidate.effect.parameters.iter().find(|of| of.name == free.name);
         let nominal = match (candidate.is_parameter_error(), parameter) {
@@ -390,6 +393,26 @@ impl Looks<'_> {
         let is_inside = best.multiple.is_finite() && (range.least..=range.greatest).contains(&at);
         // What is nominally without limit is no multiple of anything.
         if is_inside && nominal.abs() < UNLIMITED { self.look(sight, glance, &[at]) } else { None }
+    }
+
+    /// The same of several parameters, the first of which says how much there is of an effect, such as the force of a friction that falls
+    /// with speed: for the others as they are where a look promises the most.
+    fn look_ahead_of_several(&self, sight: &Sight<'_>, glance: &Glance, looks: &[Look]) -> Vec<Look> {
+        const MOST: usize = 3;
+        let candidate = &glance.candidate;
+        let Some(amount) = candidate.free.first() else { return Vec::new() };
+        let parameter = candidate.effect.parameters.iter().find(|of| of.name == amount.name);
+        if parameter.is_none_or(|parameter| parameter.nominal != 0.0) {
+            return Vec::new();
+        }
+        let mut best: Vec<&Look> = looks.iter().filter(|look| look.moved > 0.0 && look.multiple > 0.0).collect();
+        best.sort_by(|a, b| b.promise.total_cmp(&a.promise));
+        let ahead = best.into_iter().take(MOST).filter_map(|look| {
+            let mut at = look.at.clone();
+            at[0] = (look.multiple * at[0]).clamp(amount.range.least, amount.range.greatest);
+            self.look(sight, glance, &at)
+        });
+        ahead.collect()
     }
 
     /// Looks at starts that move the residuals the more the later they come.

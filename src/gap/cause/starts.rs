@@ -157,7 +157,10 @@ fn scanned(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
 
 /// Adds a free parameter: every start so far with each of its own.
 fn add(candidate: &mut Candidate, parameter: &'static EffectParameter, clues: &Clues<'_>) {
-    let (range, values) = parameter_starts(candidate, parameter, clues);
+    let (range, mut values) = parameter_starts(candidate, parameter, clues);
+    // What a slow device has little of may begin below what an effect takes: it would not even be built.
+    values.iter_mut().for_each(|value| *value = value.clamp(range.least, range.greatest));
+    values.dedup();
     let is_time = parameter.quantities.contains(&Quantity::Time);
     candidate.free.push(Free { name: parameter.name, range, is_time });
     let starts =
