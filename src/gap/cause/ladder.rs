@@ -77,7 +77,8 @@ pub fn anew(free: usize) -> Effort {
     Effort { starts: 1, budget: (STEPS * (free as u32 + 1)).max(60) }
 }
 
-/// Climbs from the model with its nominal parameters at `at`; where it is not evident that anything is wrong, nothing is looked for.
+/// Climbs from the model with its nominal parameters at `at`; where it is not evident that anything is wrong, and no witness takes anything
+/// away ([`beneath`]), nothing is looked for.
 /// `is_asked` says which effects are.
 pub fn climb(
     bench: &Bench<'_>,

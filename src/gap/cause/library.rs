@@ -236,3 +236,47 @@ impl Library<'_> {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+    use crate::device::KINDS;
+    use crate::gap::{Overrides, Recording, Study};
+    use crate::plant::{self, embedded::Embedded};
+    use crate::trace::Reader;
+
+    /// An axis that is told to go to and fro at 0.1 m/s, and does.
+    fn slow() -> Study {
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let place = |step: i32| 2e-3 * f64::from((step % 200 - 100).abs());
+        let lines = (0..1000).map(|step| {
+            let (at, place) = (0.02 * f64::from(step), place(step));
+            format!(
+                "{{\"t\":{at:.3},\"from\":\"automation\",\"SendValue\":[{{\"name\":\"Axis.positionTarget\",\"value\":{place:.4}}}]}}\n\
+                 {{\"t\":{:.3},\"from\":\"plant\",\"SendValue\":[{{\"name\":\"Axis.position\",\"value\":{place:.4}}}]}}\n",
+                at + 0.01
+            )
+        });
+        let text = format!("{{\"trace\":\"kinetwin/1\",\"source\":\"plant\"}}\n{}", lines.collect::<String>());
+        let reader = Reader::new("slow", Cursor::new(text.into_bytes())).expect("a trace");
+        let recording = Recording::read(&plant, "slow", reader, &[]).expect("a recording");
+        Study::new(&plant, &[recording]).expect("a study")
+    }
+
+    /// Three thousandths of what a slow axis moves at is less than the least speed that friction may fall within: the search begins there.
+    #[test]
+    fn friction_that_falls_with_speed_is_looked_for_on_a_slow_axis() {
+        let study = slow();
+        let subject = study.subject("Axis").expect("it moves");
+        let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+        let found = candidates(subject, &nominal, &subject.score(&nominal), &|id| id == "stribeck-friction");
+        let [stribeck] = found.as_slice() else { panic!("{} candidates", found.len()) };
+        for start in &stribeck.starts {
+            let spec = stribeck.spec(start);
+            let built = effect::build(subject.kind, &subject.parameters, &subject.name, &[spec], 0);
+            assert!(built.is_ok(), "{start:?}");
+        }
+    }
+}

@@ -108,7 +108,7 @@ const WITNESSES: [&str; 9] = [
 ];
 
 /// What an effect takes away of a device's deviance though nothing that is asked of all motions shows that anything is off: the greatest
-/// gain of those [`WITNESSES`] that promise the most, each fitted with all nominal parameters beside it. `None` where nothing promises as much as
+/// gain of the witnesses that promise the most, each fitted with all nominal parameters beside it. `None` where nothing promises as much as
 /// `least`.
 pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<f64> {
     /// The square of a whitened distance that shows clearly: a start that moves the levels by much more says nothing of one.
