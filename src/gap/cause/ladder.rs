@@ -78,7 +78,7 @@ pub fn anew(free: usize) -> Effort {
 }
 
 /// Climbs from the model with its nominal parameters at `at`; where it is not evident that anything is wrong, and no witness takes anything
-/// away ([`beneath`]), nothing is looked for.
+/// away (`beneath`), nothing is looked for.
 /// `is_asked` says which effects are.
 pub fn climb(
     bench: &Bench<'_>,
