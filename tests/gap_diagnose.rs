@@ -141,7 +141,7 @@ fn an_axis_errs_once_per_revolution() {
     check_shrinks(&report, 0.1);
 }
 
-/// Friction of 0.074 N of an axis that is 20 kg: each of its levels costs less than its floor, and goes with nothing of the motion.
+/// Friction of 0.074 N of an axis that is 20 kg: none of its levels costs more than chance has it, or goes with anything of the motion.
 #[test]
 fn friction_that_no_level_shows_by_itself_is_found_by_what_it_takes_away() {
     let plant = model::load("models/rig-toleranced").expect("the rig");
