@@ -22,8 +22,8 @@ const FILTER_STEP_S: f64 = 1e-4;
 /// How far an edge may be off, standard deviation, s, and how much a stray counts.
 const EDGE_SIGMA_S: f64 = 1.5e-4;
 const STRAY: f64 = 9.0;
-/// The filters that are tried with nominal parameters beside them, s, where none is known, and which shares of one that is; then shares
-/// of the best, nearer and nearer: of a cylinder's ways a tenth of a millisecond shows.
+/// The filters that are tried with nominal parameters beside them, s, and which shares of one that is known; then shares of the best, nearer
+/// and nearer: of a cylinder's ways a tenth of a millisecond shows.
 const TRIED_S: [f64; 5] = [3e-4, 6e-4, 1e-3, 2e-3, 4e-3];
 const NEAR_THE_KNOWN: [f64; 6] = [0.55, 0.75, 0.9, 1.1, 1.33, 1.8];
 const SHARES: [[f64; 2]; 3] = [[0.85, 1.18], [0.95, 1.05], [0.98, 1.02]];
@@ -85,7 +85,7 @@ struct Tried {
 
 /// Tries filters with nominal parameters fitted beside each, in all runs, and sets the one that explains more than chance does: in
 /// `subjects`, and what they are under it in `bare`. What it is; `None` where there is none. Where one is `known`, 0 if none is, it is
-/// one of the delays between two looks that do equally well, and filters about it are tried.
+/// one of the delays between two looks that do equally well with the nominal parameters as they were: filters about it are tried too.
 pub(super) fn find_beside_parameters(
     known_s: f64,
     subjects: &mut [Subject],
@@ -124,11 +124,8 @@ pub(super) fn find_beside_parameters(
         Tried { filter_s, cost, bare }
     };
     let nearer = |a: Tried, b: Tried| if b.cost < a.cost { b } else { a };
-    let tried = match known_s > 0.0 {
-        true => NEAR_THE_KNOWN.map(|share| share * known_s).to_vec(),
-        false => TRIED_S.to_vec(),
-    };
-    let mut best = tried.into_iter().map(under).reduce(nearer)?;
+    let near = NEAR_THE_KNOWN.map(|share| share * known_s).into_iter().filter(|filter_s| *filter_s > 0.0);
+    let mut best = near.chain(TRIED_S).map(under).reduce(nearer)?;
     for shares in SHARES {
         let about = best.filter_s;
         best = shares.into_iter().map(|share| under(share * about)).fold(best, nearer);
@@ -158,5 +155,41 @@ fn set(subject: &mut Subject, filter_s: f64) {
     for run in 0..subject.runs.len() {
         let task = subject.runs[run].task;
         subject.set_task(run, Task { filter_s, ..task });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs::File;
+    use std::io::BufReader;
+
+    use super::*;
+    use crate::device::KINDS;
+    use crate::gap::{Overrides, Recording, Study};
+    use crate::plant::{self, embedded::Embedded};
+    use crate::trace::Reader;
+
+    /// Of a pusher that is a per cent slow no edge asks for a filter before its speed is known, and for none of its speeds without it. What
+    /// edges asked for with the nominal speeds may be less than half of what it is.
+    #[test]
+    fn a_filter_is_found_with_the_speeds_that_it_hides_whatever_was_known_of_it() {
+        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
+        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
+        let study = Study::new(&plant, &[recording]).expect("a study");
+        for known in [0.0, 1.5e-4] {
+            let mut subjects = study.subjects.clone();
+            subjects.iter_mut().for_each(|subject| set(subject, known));
+            let predict = |subject: &Subject| subject.predict(&[], &Overrides::none()).expect("a prediction");
+            let nominal: Vec<Prediction> = subjects.iter().map(predict).collect();
+            let mut bare: Vec<Bare> =
+                subjects.iter().zip(&nominal).map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
+            let found = find_beside_parameters(known, &mut subjects, &nominal, &mut bare);
+            assert!(found.is_some_and(|found| (4e-4..8e-4).contains(&found)), "{found:?}, with {known} known");
+            let off =
+                subjects.iter().zip(&bare).filter(|(subject, bare)| evidence(subject, &bare.prediction) > THRESHOLD);
+            assert_eq!(off.map(|(subject, _)| subject.name.as_str()).collect::<Vec<_>>(), [""; 0]);
+        }
     }
 }

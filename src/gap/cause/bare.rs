@@ -33,7 +33,7 @@ const ROUNDS: usize = 2;
 enum Search {
     /// Everywhere, before there is said to be a gap.
     All,
-    /// Where they begin, and near to where that leads.
+    /// Where they begin, and near to where that leads; everywhere where edges alone are reported, which have no slopes to lead there.
     Near,
     /// Downhill from where they begin.
     Downhill,
@@ -93,7 +93,8 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, 
     if search == Search::Downhill || bench.is_rugged() || !is_off(&best)? {
         return Some((best.at, best.overrides));
     }
-    if search == Search::All {
+    let has_slopes = bench.subject.score(&*bench.predict(&[], &best.at)?).are_levels().contains(&true);
+    if search == Search::All || !has_slopes {
         best = lower(about(bench, &start), best);
     }
     if is_off(&best)? {
