@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Standing};
-use crate::gap::fit::Range;
+use super::tangent::{LEAST_OWN, orthonormal, product, take_out};
+use crate::gap::fit::{Range, Slopes};
 use crate::gap::floor::FLOOR_UNCERTAINTY;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
 use crate::gap::{Predicted, Prediction, Score};
@@ -77,6 +78,8 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let mut depends = dependences(bench, &prediction, &score);
     let trend = if best.set.is_empty() { None } else { trend(bench, best) };
     let (is_steady, is_surely_not) = trend.as_ref().map_or((true, false), Trend::judged);
+    let drifts = !best.set.is_empty() && drift(bench, best).is_some_and(|drift| drift.is_sure(best, ladder.floor.0));
+    let (is_steady, is_surely_not) = (is_steady && !drifts, is_surely_not || drifts);
     if !is_steady {
         depends.insert(0, ("time".to_owned(), 1.0, 1.0));
     }
@@ -253,6 +256,58 @@ impl Trend {
     }
 }
 
+/// How the answer's main parameter goes with time over all recordings together, to first order, all others fitted beside that: of an effect
+/// that is little in all of them no span says anything by itself.
+#[derive(Clone, Copy, Debug)]
+struct Drift {
+    /// By which share of itself it changes from the recordings' begin to their end.
+    change: f64,
+    /// What that gains in deviance.
+    gain: f64,
+}
+
+/// In one of a hundred recordings a constant gains as much as that (chi squared of one degree of freedom).
+const GAINS_BY_CHANCE: f64 = 6.63;
+
+impl Drift {
+    /// Whether the parameter of `best` is surely no constant, where the floor is `floor`: what is left above it is the law's own error, and
+    /// gains as much more.
+    fn is_sure(&self, best: &Trial, floor: f64) -> bool {
+        let dispersion = if floor > 0.0 { (best.cost / floor).max(1.0) } else { 1.0 };
+        self.change.abs() >= CHANGES_SURELY && self.gain > GAINS_BY_CHANCE * best.inflation() * dispersion
+    }
+}
+
+/// The drift of the answer's main parameter. `None` where it has none, or no level has a slope.
+///
+/// Source: the score test of a parameter that is left out, here the rate (C. R. Rao, Proc. Camb. Phil. Soc. 44, 1948, 50–57).
+fn drift(bench: &Bench<'_>, best: &Trial) -> Option<Drift> {
+    let value = *best.at.first().filter(|_| best.parameters() > 0)?;
+    let score = bench.subject.score(&*bench.predict(&best.set, &best.at)?);
+    let (places, levels) = (score.places(), score.are_levels());
+    let slopes = Slopes::of(&|at: &[f64]| bench.residuals(&best.set, at), &best.at, &best.ranges)?;
+    // Edges have no slopes; what lies behind the residuals of signals is the parameters' own.
+    let of_levels = |parameter: usize| {
+        let mut column = slopes.column(parameter);
+        column.iter_mut().zip(&levels).filter(|(_, is_level)| !**is_level).for_each(|(slope, _)| *slope = 0.0);
+        column
+    };
+    let columns: Vec<Vec<f64>> = (0..best.at.len()).map(of_levels).collect();
+    let mut along = columns.first()?.clone();
+    let later =
+        |place: Option<(usize, f64)>| place.map_or(0.0, |(run, at)| at / bench.subject.runs[run].ends.max(1e-9) - 0.5);
+    let when = places.into_iter().map(later).chain(std::iter::repeat(0.0));
+    along.iter_mut().zip(when).for_each(|(slope, when)| *slope *= when);
+    let whole = product(&along, &along);
+    take_out(&mut along, &orthonormal(&columns));
+    let own = product(&along, &along);
+    if own <= LEAST_OWN * whole {
+        return None;
+    }
+    let rate = -product(slopes.here(), &along) / own;
+    Some(Drift { change: rate / value, gain: rate * rate * own })
+}
+
 /// The trend of the answer's main parameter. `None` where it has none, or too few spans say anything.
 fn trend(bench: &Bench<'_>, best: &Trial) -> Option<Trend> {
     let value = *best.at.first().filter(|_| best.parameters() > 0)?;
@@ -318,7 +373,66 @@ fn spans(bench: &Bench<'_>, score: &Score) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+    use std::io::BufReader;
+
     use super::*;
+    use crate::device::KINDS;
+    use crate::gap::cause::ladder::anew;
+    use crate::gap::cause::library::candidates;
+    use crate::gap::cause::nuisance::nuisances;
+    use crate::gap::{Overrides, Recording, Study, Subject};
+    use crate::plant::{self, embedded::Embedded};
+    use crate::trace::Reader;
+
+    /// Friction too little to show in any level by itself: where it grows to nine times what it was that is said, where it stays as it is
+    /// nothing is.
+    #[test]
+    fn friction_that_grows_is_no_constant() {
+        let path = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
+        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
+        let study = Study::new(&plant, &[recording]).expect("a study");
+        let mut subject = study.subject("Axis").expect("it moves").clone();
+        let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+        let found = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "coulomb-friction");
+        let rubs = vec![found.into_iter().next().expect("friction")];
+        let fitted = |subject: &Subject| -> (Trial, bool) {
+            let stop = || false;
+            let bench = Bench::new(subject, nuisances(subject, &nominal), &stop);
+            let start = [vec![0.07], bench.nominal(&rubs)].concat();
+            let best = bench.fit(&rubs, &[start], anew(1)).expect("a fit");
+            let is_sure = drift(&bench, &best).expect("levels").is_sure(&best, best.cost);
+            (best, is_sure)
+        };
+        let (best, is_sure) = fitted(&subject);
+        assert!(!is_sure, "{best:?}");
+        let rubbing = |force: f64| {
+            let stop = || false;
+            let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
+            let mut at = best.at.clone();
+            at[0] = force;
+            bench.predict(&rubs, &at).expect("a prediction")
+        };
+        let [less, more] = [0.2 * best.at[0], 1.8 * best.at[0]].map(rubbing);
+        let as_found = rubbing(best.at[0]);
+        for (signal, track) in subject.runs[0].tracks.iter_mut().enumerate() {
+            let Some(track) = track else { continue };
+            let (Predicted::Level(less), Predicted::Level(more), Predicted::Level(as_found)) =
+                (&less.runs[0][signal], &more.runs[0][signal], &as_found.runs[0][signal])
+            else {
+                continue;
+            };
+            let count = track.values.len() as f64;
+            for (at, value) in track.values.iter_mut().enumerate() {
+                let late = at as f64 / count;
+                *value += less[at] * (1.0 - late) + more[at] * late - as_found[at];
+            }
+        }
+        let (best, is_sure) = fitted(&subject);
+        assert!(is_sure, "{best:?}");
+    }
 
     /// A play of which nobody would notice that it is gone excuses nothing that is left beside it.
     #[test]

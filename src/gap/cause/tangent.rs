@@ -18,7 +18,7 @@ use crate::gap::fit::Range;
 /// Over how many of its standard deviations a parameter's slope is a difference.
 const DIFFERENCE: f64 = 0.02;
 /// A direction of which less than this share is left beside the others is none of its own.
-const LEAST_OWN: f64 = 1e-6;
+pub const LEAST_OWN: f64 = 1e-6;
 
 /// The nuisances about a trial: where they are, and how the residuals of levels change with them.
 pub struct Tangent {
@@ -92,11 +92,7 @@ pub struct Beside {
 impl Beside {
     /// What the nuisances cannot explain of residuals.
     pub fn left_of(&self, mut residuals: Vec<f64>) -> Vec<f64> {
-        let count = residuals.len();
-        for direction in self.basis.iter().filter(|direction| direction.len() == count) {
-            let along = product(direction, &residuals);
-            residuals.iter_mut().zip(direction).for_each(|(residual, share)| *residual -= along * share);
-        }
+        take_out(&mut residuals, &self.basis);
         residuals
     }
 
@@ -115,17 +111,14 @@ impl Beside {
     }
 }
 
-fn orthonormal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+/// Directions across each other, each of length 1, that span the columns.
+pub fn orthonormal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(columns.len());
     for column in columns {
         let mut rest = column.clone();
         // Twice is enough (W. Kahan's rule for Gram and Schmidt).
-        for _ in 0..2 {
-            for direction in &basis {
-                let along = product(direction, &rest);
-                rest.iter_mut().zip(direction).for_each(|(rest, share)| *rest -= along * share);
-            }
-        }
+        take_out(&mut rest, &basis);
+        take_out(&mut rest, &basis);
         let (whole, own) = (product(column, column), product(&rest, &rest));
         if own > LEAST_OWN * whole && own > 0.0 {
             let length = own.sqrt();
@@ -134,6 +127,15 @@ fn orthonormal(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         }
     }
     basis
+}
+
+/// Takes what goes along each of these directions of length 1 out of `values`.
+pub fn take_out(values: &mut [f64], basis: &[Vec<f64>]) {
+    let count = values.len();
+    for direction in basis.iter().filter(|direction| direction.len() == count) {
+        let along = product(direction, values);
+        values.iter_mut().zip(direction).for_each(|(value, share)| *value -= along * share);
+    }
 }
 
 /// The sum of the products.

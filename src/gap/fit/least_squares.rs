@@ -42,6 +42,16 @@ impl Slopes {
         Some(Slopes { here: descent.here, each, steps: descent.steps })
     }
 
+    /// The residuals that they are of.
+    pub fn here(&self) -> &[f64] {
+        &self.here
+    }
+
+    /// How each residual changes with a parameter.
+    pub fn column(&self, parameter: usize) -> Vec<f64> {
+        self.each.column(parameter).iter().copied().collect()
+    }
+
     /// The same where each of the first residuals has a weight of its own, and what lies behind them that of 1.
     pub fn weighted(&self, weights: &[f64]) -> Slopes {
         let weights = || weights.iter().copied().chain(std::iter::repeat(1.0));

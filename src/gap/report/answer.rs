@@ -36,7 +36,8 @@ impl Report {
         let named: Vec<String> = self.cause.iter().map(Cause::in_words).collect();
         let named = named.join("; and ");
         let depends = self.remainder.as_ref().filter(|rest| !rest.depends_on.is_empty());
-        let depends = depends.map(|rest| format!(", which depends on {}", rest.depends_on.join(" and ")));
+        let depends = depends.map(|rest| rest.depends_on.join(" and "));
+        let which = depends.as_ref().map(|depends| format!(", which depends on {depends}")).unwrap_or_default();
         match self.verdict {
             Verdict::NotTestable => match self.not_testable.first() {
                 Some(first) => {
@@ -47,14 +48,22 @@ impl Report {
             },
             Verdict::NoGap => "Nothing is to be added.".to_owned(),
             Verdict::Unknown => {
-                format!("Nothing in the library explains it{}.", depends.unwrap_or_default())
+                format!("Nothing in the library explains it{which}.")
             }
             Verdict::Partial => {
-                let rest = self.remainder.as_ref().map(|rest| percent(rest.share)).unwrap_or_default();
-                format!(
-                    "A part of it: {named}; {rest} is left that nothing in the library explains{}.",
-                    depends.unwrap_or_default()
-                )
+                /// Less of a gap is nothing.
+                const NOTHING: f64 = 0.005;
+                let share = self.remainder.as_ref().map(|rest| rest.share);
+                let rest = share.map(percent).unwrap_or_default();
+                match depends {
+                    // The part is as large as the gap, but it is no constant.
+                    Some(depends) if share.is_some_and(|share| share < NOTHING) => {
+                        format!(
+                            "A part of it: {named}; but what it does depends on {depends}, which nothing in the library explains."
+                        )
+                    }
+                    _ => format!("A part of it: {named}; {rest} is left that nothing in the library explains{which}."),
+                }
             }
             Verdict::Ambiguous => format!("Cause: {named}.{}", self.undecided()),
             Verdict::Effect => format!("Cause: {named}."),
@@ -79,6 +88,13 @@ impl Report {
         };
         if self.cause.is_empty() {
             return format!("On data that no fit saw, the gap is {} times the noise floor.", significant(before, 3));
+        }
+        if significant(before, 3) == significant(1.0, 3) {
+            return format!(
+                "On data that no fit saw, the gap is hidden in the noise, {} times its floor before and {} after.",
+                significant(before, 3),
+                significant(after, 3)
+            );
         }
         let within = shrink.ci95.map(|[low, high]| format!(" ({} to {})", percent(low), percent(high)));
         format!(
@@ -128,4 +144,51 @@ pub fn words(id: &str) -> String {
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::report::{Remainder, Shrink};
+
+    fn partial(share: f64, before: f64) -> Answer {
+        let remainder = Some(Remainder { share, depends_on: vec!["time".to_owned()] });
+        let shrink =
+            Shrink { holdout_before: Some(before), holdout_after: Some(1.0), ratio: Some(0.25), ..Shrink::default() };
+        let cause = vec![Cause {
+            device: "Axis".to_owned(),
+            component: None,
+            effect: "coulomb-friction".to_owned(),
+            place: crate::plant::EffectPlace::Mechanics,
+            weight: 0.01,
+            class: Vec::new(),
+            parameters: Vec::new(),
+            texts: Default::default(),
+        }];
+        Report { cause, remainder, shrink, ..Report::new(Verdict::Partial) }.answer()
+    }
+
+    /// Of a friction that warms up nothing is left that could be measured.
+    #[test]
+    fn where_nothing_is_left_but_that_it_changes_that_is_said() {
+        let named = "A part of it: coulomb friction on Axis (mechanics)";
+        let unexplained = "nothing in the library explains";
+        assert_eq!(
+            [partial(0.001, 1.4).cause, partial(0.2, 1.4).cause],
+            [
+                format!("{named}; but what it does depends on time, which {unexplained}."),
+                format!("{named}; 20 % is left that {unexplained}, which depends on time.")
+            ]
+        );
+    }
+
+    #[test]
+    fn a_gap_that_noise_hides_falls_from_nothing_to_nothing() {
+        let [hidden, seen] = [1.001, 1.4].map(|before| partial(0.2, before).shrink);
+        assert_eq!(
+            hidden,
+            "On data that no fit saw, the gap is hidden in the noise, 1 times its floor before and 1 after."
+        );
+        assert!(seen.contains("falls from 1.4 to 1 times the noise floor: 25 %"), "{seen}");
+    }
 }
