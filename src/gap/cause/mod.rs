@@ -10,6 +10,7 @@ mod ladder;
 mod latest;
 mod library;
 mod nuisance;
+mod refresh;
 mod remainder;
 mod rung;
 mod scales;

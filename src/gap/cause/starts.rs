@@ -6,11 +6,12 @@
 
 use super::candidate::{Candidate, Free};
 use super::scales::Scales;
-use super::scan;
+use super::{refresh, scan};
 use crate::effect::EffectParameter;
 use crate::gap::fit::Range;
 use crate::gap::statistics::{quantile, span};
 use crate::gap::{Predicted, Prediction, Score, Subject};
+use crate::plant::EffectPlace;
 use crate::prototype::kind::PortType;
 use crate::value::Quantity;
 
@@ -176,7 +177,11 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
     let times = |shares: &[f64], of: f64| shares.iter().map(|share| share * of).collect::<Vec<f64>>();
     if parameter.quantities.contains(&Quantity::Time) {
         let longest = greatest.min(LONGEST_S);
-        return (range(least, longest, 0.02), time_starts(clues).into_iter().filter(|time| *time < longest).collect());
+        let mut starts: Vec<f64> = time_starts(clues).into_iter().filter(|time| *time < longest).collect();
+        if candidate.effect.id == "stale-hold" && candidate.place == EffectPlace::ReportLink {
+            starts.extend(refresh::period(clues, longest));
+        }
+        return (range(least, longest, 0.02), starts);
     }
     if let ("compliance", name) = (candidate.effect.id, parameter.name) {
         // Of two masses, half of the inertia each, a quarter swings; where no inertia is known a kilogram does.
