@@ -13,6 +13,8 @@ pub struct Floor {
     pub noise: f64,
     /// How much of the noise of a sample is still in the next, 0 to 1: its correlation from one to the next.
     pub memory: f64,
+    /// By how much the variance of noise and rounding is uncertain because few samples told it, standard deviation as a share of it.
+    pub uncertainty: f64,
     /// How far an instant may be off, standard deviation, s.
     pub timing: f64,
     /// How far even a good model is off, standard deviation, SI: of a device that is taken up again and again, whose errors
@@ -66,6 +68,12 @@ impl Floor {
         (1.0 + squared) / (1.0 - squared)
     }
 
+    /// The variance of what a recording costs where nothing is wrong and that is `mean` on average, by how few samples told its noise: what
+    /// of it is more than [`FLOOR_UNCERTAINTY`], which all floors have.
+    pub fn variance_by_its_noise(&self, mean: f64) -> f64 {
+        mean * mean * (self.uncertainty.powi(2) - FLOOR_UNCERTAINTY.powi(2)).max(0.0)
+    }
+
     /// What a sample costs where nothing is wrong. Noise that does not show at rest may be there in motion.
     pub fn costs(&self) -> FloorCosts {
         let sigma = self.sigma(0.0);
@@ -78,8 +86,8 @@ impl Floor {
         if is_count {
             return Floor { step, timing, ..Floor::default() };
         }
-        let Noise { sigma, memory } = noise::of(grid, recorded, predicted, step);
-        Floor { step, noise: sigma, memory, timing, ..Floor::default() }
+        let Noise { sigma, memory, scatter } = noise::of(grid, recorded, predicted, step);
+        Floor { step, noise: sigma, memory, uncertainty: scatter, timing, ..Floor::default() }
     }
 }
 

@@ -21,6 +21,8 @@ pub(super) struct Noise {
     pub sigma: f64,
     /// How much of it is still in the next sample, 0 to 1.
     pub memory: f64,
+    /// By how much its variance, with that of rounding, may be more than this: standard deviation as a share of it.
+    pub scatter: f64,
 }
 
 /// Above this noise, in steps, differences tell it.
@@ -45,9 +47,10 @@ const MOST_MEMORY: f64 = 0.92;
 
 /// The noise of `recorded` values that lie on steps of `step`, where `predicted` says what moves.
 pub(super) fn of(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) -> Noise {
-    let white = at_rest(grid, recorded, predicted, step);
+    let (white, scatter) = at_rest(grid, recorded, predicted, step);
     if white <= HIDDEN_NOISE * step {
-        return Noise { sigma: likeliest(recorded, predicted, step), memory: 0.0 };
+        let (sigma, scatter) = likeliest(recorded, predicted, step);
+        return Noise { sigma, memory: 0.0, scatter };
     }
     let still = if white.is_nan() { moving(recorded, predicted, step) } else { white };
     // Where what the prediction leaves differs from one sample to the next by more than it does at rest, that is a gap and no noise.
@@ -56,7 +59,7 @@ pub(super) fn of(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) ->
     let resting = |from: usize, to: usize| (from + 1..=to).all(|k| is_still(predicted, step, k));
     let found =
         coloured(recorded, predicted, step, &resting).or_else(|| coloured(recorded, predicted, step, &|_, _| true));
-    found.filter(is_alike).unwrap_or(Noise { sigma: still, memory: 0.0 })
+    found.filter(is_alike).unwrap_or(Noise { sigma: still, memory: 0.0, scatter })
 }
 
 /// Whether a signal hardly moves from the sample before to the `k`th.
@@ -83,6 +86,7 @@ fn coloured(recorded: &[f64], predicted: &[f64], step: f64, is_asked: &dyn Fn(us
     if apart.iter().any(|differences| differences.len() < MANY) {
         return None;
     }
+    let fewest = apart.iter().map(Vec::len).min().unwrap_or(0);
     let grown = apart.map(|differences| {
         // What jumps is no noise. (A median of differences on a lattice is known to a step.)
         let clip = CLIP * (DEVIATION * median(&differences).unwrap_or(0.0) + 0.5 * step);
@@ -107,7 +111,7 @@ fn coloured(recorded: &[f64], predicted: &[f64], step: f64, is_asked: &dyn Fn(us
     };
     let (_, variance, slowness, memory) = MEMORIES.map(fit).into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
     let is_noise = variance > (HIDDEN_NOISE * step).powi(2) && slowness < SLOW * variance && memory < MOST_MEMORY;
-    is_noise.then(|| Noise { sigma: variance.sqrt(), memory })
+    is_noise.then(|| Noise { sigma: variance.sqrt(), memory, scatter: scatter(fewest) })
 }
 
 /// Where a prediction rests, from one sample to the one behind its last, for at least so many samples.
@@ -126,25 +130,32 @@ fn spans(predicted: &[f64], step: f64, least: usize) -> Vec<(usize, usize)> {
     spans
 }
 
-/// Noise where nothing moves: from differences of neighbours, clipped where they are no noise. NaN where nothing rests.
-fn at_rest(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) -> f64 {
+/// By how much half the mean square of so many differences of neighbours scatters, as a share of it: with white noise each two of them that
+/// share a sample have a quarter of their variance in common, so that it is 3/n.
+fn scatter(differences: usize) -> f64 {
+    (3.0 / differences.max(1) as f64).sqrt()
+}
+
+/// Noise where nothing moves, and its [`scatter`]: from differences of neighbours, clipped where they are no noise. NaN where nothing rests.
+fn at_rest(grid: &Grid, recorded: &[f64], predicted: &[f64], step: f64) -> (f64, f64) {
     let still = |k: usize| is_still(predicted, step, k);
     let differences: Vec<f64> = (2..recorded.len())
         .filter(|&k| grid.cycle > 0.0 && still(k) && still(k - 1))
         .map(|k| (recorded[k] - recorded[k - 1]).abs())
         .collect();
     if differences.len() < ENOUGH {
-        return f64::NAN;
+        return (f64::NAN, 0.0);
     }
     let clip = 4.0 * (1.4826 * median(&differences).unwrap_or(0.0) + 0.5 * step);
     let variance = differences.iter().map(|d| d.min(clip).powi(2)).sum::<f64>() / differences.len() as f64;
     // A median of differences would be of no use on a lattice; rounding adds its own variance to each of the two.
-    (variance / 2.0 - step * step / 12.0).max(0.0).sqrt()
+    ((variance / 2.0 - step * step / 12.0).max(0.0).sqrt(), scatter(differences.len()))
 }
 
 /// Noise of less than a step, from how often a signal at rest leaves its step: whether it ever does hangs on where between two
-/// steps it rests, which is latent, rest by rest.
-fn likeliest(recorded: &[f64], predicted: &[f64], step: f64) -> f64 {
+/// steps it rests, which is latent, rest by rest. And by how much more its variance with that of rounding may be, standard deviation as a share
+/// of it: by all greater noises that are as likely, or nearly.
+fn likeliest(recorded: &[f64], predicted: &[f64], step: f64) -> (f64, f64) {
     const NOISES: [f64; 14] = [0.0, 0.03, 0.06, 0.09, 0.12, 0.16, 0.2, 0.25, 0.3, 0.37, 0.45, 0.55, 0.7, 0.9];
     const PLACES: i32 = 24;
     /// How likely it is beforehand that it rests where it is predicted to.
@@ -170,8 +181,16 @@ fn likeliest(recorded: &[f64], predicted: &[f64], step: f64) -> f64 {
         };
         rests.iter().map(of).sum()
     };
-    let best = NOISES.into_iter().max_by(|a, b| likelihood(*a).total_cmp(&likelihood(*b)));
-    best.unwrap_or(0.0) * step
+    let each = NOISES.map(|noise| (likelihood(noise), noise));
+    let (most, best) =
+        each.into_iter().fold((f64::NEG_INFINITY, 0.0), |best, next| if next.0 > best.0 { next } else { best });
+    let variance = |noise: f64| noise * noise + 1.0 / 12.0;
+    let greater = each.into_iter().filter(|(_, noise)| *noise >= best);
+    let (whole, off) = greater.fold((0.0, 0.0), |(whole, off), (likely, noise)| {
+        let weight = (likely - most).exp();
+        (whole + weight, off + weight * (variance(noise) / variance(best) - 1.0).powi(2))
+    });
+    (best * step, (off / whole).sqrt())
 }
 
 /// What was recorded while a machine rested.
@@ -252,5 +271,20 @@ mod tests {
         let recorded: Vec<f64> = predicted.iter().map(|value| (value + 0.3 * normal()).round()).collect();
         let found = of(&Grid::of_steps(0.01, 11.99), &recorded, &predicted, 1.0);
         assert!((found.sigma - 0.3).abs() < 0.04, "{found:?}");
+    }
+
+    /// Of sixty samples at rest nobody knows the noise to a few per cent.
+    #[test]
+    fn how_uncertain_noise_is_hangs_on_how_many_samples_tell_it() {
+        let mut dice = rand_chacha::ChaCha8Rng::seed_from_u64(7);
+        let mut normal = || (0..12).map(|_| dice.random::<f64>()).sum::<f64>() - 6.0;
+        for sigma in [0.3, 3.0] {
+            let [few, many] = [60, 3000].map(|count| {
+                let predicted: Vec<f64> = (0..count).map(|k| f64::from(50 * (k / 20))).collect();
+                let recorded: Vec<f64> = predicted.iter().map(|value| (value + sigma * normal()).round()).collect();
+                of(&Grid::of_steps(0.01, 0.01 * f64::from(count - 1)), &recorded, &predicted, 1.0).scatter
+            });
+            assert!(few > 0.15 && many < 0.07 && many > 0.0, "{few} {many} of {sigma}");
+        }
     }
 }

@@ -182,6 +182,7 @@ impl SignalScore {
                     (floor_cost.0 + weight * mean, floor_cost.1 + weight * weight * variance * floor.scatter());
             }
         });
+        floor_cost.1 += floor.variance_by_its_noise(floor_cost.0);
         let count = level.at.len().max(1) as f64;
         SignalScore {
             signal: place.0,

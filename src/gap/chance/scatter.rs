@@ -8,8 +8,10 @@ use crate::plant::EffectPlace;
 
 /// How many times more steps than those of the others a noise must be.
 const MUCH: f64 = 10.0;
-/// A noise below this many steps is none.
-const LEAST: f64 = 0.3;
+/// A noise below this many steps is none. (A force is often read with 3 steps of noise where positions show none.)
+const LEAST: f64 = 0.4;
+/// How many times more than that of the same report of another device.
+const MORE_THAN_ITS_LIKE: f64 = 3.0;
 /// How many other levels there must be.
 const OTHERS: usize = 3;
 /// What moves by less than this share of its noise rests.
@@ -31,7 +33,11 @@ pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance>
     let own = steps.iter().filter(|(at, ..)| *at == place);
     let &(_, signal, noise) = own.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let others: Vec<f64> = steps.iter().filter(|of| (of.0, of.1) != (place, signal)).map(|of| of.2).collect();
-    if others.len() < OTHERS || noise < MUCH * quantile(&others, 0.5).max(LEAST) {
+    let property = |at: usize, signal: usize| study.subjects[at].signals[signal].property.as_str();
+    let is_like = |of: &&(usize, usize, f64)| of.0 != place && property(of.0, of.1) == property(place, signal);
+    let of_its_like = steps.iter().filter(is_like).map(|of| of.2).fold(0.0, f64::max);
+    let is_much = noise >= MUCH * quantile(&others, 0.5).max(LEAST) && noise >= MORE_THAN_ITS_LIKE * of_its_like;
+    if others.len() < OTHERS || !is_much {
         return None;
     }
     let runs = || subject.runs.iter().filter(|run| run.tracks[signal].is_some());
