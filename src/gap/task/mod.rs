@@ -7,18 +7,15 @@
 //! its own gap. (Within one clock no other offset of a device is ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
 //! most [`MOST_FILTER_S`](super::filter::MOST_FILTER_S).
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+mod voter;
+
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::cause::{Nuisance, nuisances};
 use super::locate::THRESHOLD;
-use super::overrides::Overrides;
-use super::prediction::{Predicted, Prediction};
 use super::subject::Subject;
-use super::track::Track;
 use crate::effect::EffectError;
-use crate::value::Quantity;
+use voter::{Moments, Voter, age_of_most, likeliest_age};
 
 /// How old a report may be, s.
 pub const MOST_AGE_S: f64 = 2.5e-3;
@@ -36,18 +33,6 @@ const NEARER_TASKS: usize = 3;
 const ROUNDS: usize = 3;
 /// Phases no further apart are one, s.
 const SAME_PHASE_S: f64 = 2e-8;
-/// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
-const CENTRINGS: u32 = 6;
-const SHORTENINGS: u32 = 3;
-const FURTHEST: f64 = 3.0;
-/// By how many standard deviations a nominal parameter is moved to see how the samples move with it. What a whole one does is no slope:
-/// whether a ramp ends before the next command, and where all that follows is, may turn within it.
-const NUDGE: f64 = 0.02;
-/// Steps of the age, s, and into how many the best one's neighbourhood is divided.
-const STEP_S: f64 = 2e-5;
-const FINER: i32 = 10;
-/// The least age from which slopes are taken, s.
-const LEAST_SPAN_S: f64 = 1e-4;
 /// A mean square in floors that no device comes below for any other reason than that a floor is too high.
 pub(super) const LEAST_SQUARE: f64 = 0.2;
 /// What a task's cycle and its phase have to gain, in deviance.
@@ -113,7 +98,11 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
         |subject: &&Subject| subject.runs[run].tracks.iter().flatten().any(|track| !track.edges.is_empty());
     let are_others = || subjects.iter().filter(is_at_work).count() >= LEAST_DEVICES;
     let is_common = nearer >= LEAST_DEVICES || nearer == 1 && are_others() && is_explained();
-    Ok((is_common && gain > THRESHOLD).then_some(best.task))
+    if !is_common || gain <= THRESHOLD {
+        return Ok(None);
+    }
+    let age_s = age_of_most(&Best::moments(&voters, best.task)?, best.task.age_s);
+    Ok(Some(Task { age_s, ..best.task }))
 }
 
 /// `known` with its phase as this run has it, which began at another instant: the likeliest as in [`find`].
@@ -273,16 +262,14 @@ impl Best {
         Ok(())
     }
 
+    fn moments(voters: &[Voter], task: Task) -> Result<Vec<Moments>, EffectError> {
+        voters.par_iter().map(|voter| voter.moments(Some(task))).collect()
+    }
+
     /// Tries a task with every age.
     fn weigh(&mut self, voters: &[Voter], task: Task) -> Result<(), EffectError> {
-        let each = voters.par_iter().map(|voter| voter.moments(Some(task))).collect::<Result<Vec<_>, _>>()?;
-        let total = |age_s: f64| each.iter().map(|moments| moments.cost(age_s)).sum::<f64>();
-        let least = |ages: &mut dyn Iterator<Item = f64>| {
-            let costs = ages.filter(|age| (0.0..=MOST_AGE_S).contains(age)).map(|age| (total(age), age));
-            costs.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0.0))
-        };
-        let (_, near) = least(&mut (0..=(MOST_AGE_S / STEP_S) as i32).map(|step| f64::from(step) * STEP_S));
-        let (cost, age_s) = least(&mut (-FINER..=FINER).map(|step| near + f64::from(step) * STEP_S / f64::from(FINER)));
+        let each = Best::moments(voters, task)?;
+        let (cost, age_s) = likeliest_age(&each.iter().collect::<Vec<_>>());
         let cost = cost + if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
         if cost < self.cost {
             let costs = each.iter().map(|moments| moments.cost(age_s)).collect();
@@ -292,207 +279,13 @@ impl Best {
     }
 }
 
-/// A device that has a say: what of its levels moves, and how that goes with nominal parameters that may be off.
-#[derive(Clone)]
-struct Voter {
-    subject: Subject,
-    /// Samples that move, by signal and place in its track.
-    kept: Vec<(usize, usize)>,
-    /// How many independent samples they are.
-    count: f64,
-    /// Nominal parameters with a tolerance, and how many standard deviations each is taken to be off.
-    free: Vec<Nuisance>,
-    strain: DVector<f64>,
-    /// How far a standard deviation more of each of them moves the samples, in floors.
-    columns: DMatrix<f64>,
-    /// How far each second of age moves them, in floors.
-    slopes: DVector<f64>,
-    /// Of the columns' squares, with what is known of the parameters beforehand.
-    known: Cholesky<f64, Dyn>,
-}
-
-impl Voter {
-    /// A subject of one run; `None` where nothing moves.
-    fn new(subject: Subject) -> Result<Option<Voter>, EffectError> {
-        let nominal = subject.predict(&[], &Overrides::none())?;
-        let mut voter = Voter {
-            kept: Vec::new(),
-            count: 0.0,
-            free: nuisances(&subject, &nominal),
-            strain: DVector::zeros(0),
-            columns: DMatrix::zeros(0, 0),
-            slopes: DVector::zeros(0),
-            known: Cholesky::pack_dirty(DMatrix::zeros(0, 0)),
-            subject,
-        };
-        voter.kept = voter.moving(&nominal);
-        if voter.kept.is_empty() {
-            return Ok(None);
-        }
-        voter.count = voter.kept.iter().map(|(place, _)| voter.subject.runs[0].floors[*place].share()).sum();
-        voter.strain = DVector::zeros(voter.free.len());
-        Ok(Some(voter))
-    }
-
-    /// Takes the nominal parameters to be what they are best under a task: how they move the samples is no straight line.
-    fn centre(&mut self, task: Task) -> Result<(), EffectError> {
-        let under = self.under(task);
-        self.linearise(task)?;
-        let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
-            let rest = voter.rest(&under.predict(&[], &voter.overrides())?) + &voter.slopes * task.age_s;
-            let cost = rest.norm_squared() + voter.strain.norm_squared();
-            Ok((rest, cost))
-        };
-        let (mut rest, mut cost) = left(self)?;
-        for _ in 0..CENTRINGS {
-            let mut step = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
-            let from = self.strain.clone();
-            let before = cost;
-            for _ in 0..SHORTENINGS {
-                // Further off nobody builds: what asks for it is a gap.
-                self.strain = (&from + &step).map(|strain| strain.clamp(-FURTHEST, FURTHEST));
-                cost = left(self)?.1;
-                if cost <= before {
-                    break;
-                }
-                step *= 0.5;
-            }
-            self.linearise(task)?;
-            if before - cost < NEARER {
-                break;
-            }
-            (rest, cost) = left(self)?;
-        }
-        Ok(())
-    }
-
-    /// Finds how the samples move with the nominal parameters, and with their age. The latter is asked of the model: between two reports
-    /// of a coarse cycle an axis may speed up and be slow again, and their difference knows nothing of it.
-    fn linearise(&mut self, task: Task) -> Result<(), EffectError> {
-        let under = self.under(task);
-        let base = self.rest(&under.predict(&[], &self.overrides())?);
-        let age_s = task.age_s.max(LEAST_SPAN_S);
-        let mut older = under.clone();
-        older.set_task(0, Task { age_s, filter_s: 0.0, ..task });
-        self.slopes = (self.rest(&older.predict(&[], &self.overrides())?) - &base) / age_s;
-        self.columns = DMatrix::zeros(base.len(), self.free.len());
-        for column in 0..self.free.len() {
-            let mut beside = self.overrides();
-            beside.0.insert(self.free[column].name.to_owned(), self.free[column].at(self.strain[column] + NUDGE));
-            let moved = self.rest(&under.predict(&[], &beside)?);
-            self.columns.set_column(column, &((&base - &moved) / NUDGE));
-        }
-        let squares = self.columns.transpose() * &self.columns + DMatrix::identity(self.free.len(), self.free.len());
-        if let Some(known) = squares.cholesky() {
-            self.known = known;
-        }
-        Ok(())
-    }
-
-    /// The nominal parameters as they are taken to be.
-    fn overrides(&self) -> Overrides {
-        let each = self.free.iter().zip(&self.strain);
-        Overrides(each.map(|(nuisance, strain)| (nuisance.name.to_owned(), nuisance.at(*strain))).collect())
-    }
-
-    /// The subject under a task that is told at once.
-    fn under(&self, task: Task) -> Subject {
-        let mut subject = self.subject.clone();
-        subject.set_tick(0, 0.0, 0.0);
-        subject.set_task(0, Task { age_s: 0.0, filter_s: 0.0, ..task });
-        subject
-    }
-
-    fn moving(&self, nominal: &Prediction) -> Vec<(usize, usize)> {
-        let run = &self.subject.runs[0];
-        let mut kept = Vec::new();
-        for (place, predicted) in nominal.runs[0].iter().enumerate() {
-            // A force jumps with its command: a sample beside the jump is off by all of it, or by nothing.
-            let port = &self.subject.kind.ports[self.subject.signals[place].port];
-            if port.quantities.iter().any(|of| [Quantity::Force, Quantity::Torque].contains(of)) {
-                continue;
-            }
-            if let (Some(track), Predicted::Level(values)) = (&run.tracks[place], predicted) {
-                let floor = run.floors[place].rms(0.0);
-                let moves = |k: &usize| slope(track, values, *k).abs() * MOST_AGE_S > 0.1 * floor;
-                let seen = (1..values.len().saturating_sub(1)).filter(|k| !track.is_blind(track.first + k));
-                kept.extend(seen.filter(moves).map(|k| (place, k)));
-            }
-        }
-        kept
-    }
-
-    /// What is left of each sample, in floors; where noise remembers, as much less as it tells less.
-    fn rest(&self, prediction: &Prediction) -> DVector<f64> {
-        let run = &self.subject.runs[0];
-        let of = |&(place, k): &(usize, usize)| match (&run.tracks[place], &prediction.runs[0][place]) {
-            (Some(track), Predicted::Level(values)) => {
-                let half = if self.subject.signals[place].is_count { 0.5 } else { 0.0 };
-                let floor = run.floors[place];
-                let unit = floor.rms(0.0) / floor.share().sqrt();
-                (track.values[k] + half - values[k]) / unit
-            }
-            _ => 0.0,
-        };
-        DVector::from_iterator(self.kept.len(), self.kept.iter().map(of))
-    }
-
-    /// The mean square that [`Moments::cost`] came from.
-    fn mean_square_at(&self, cost: f64) -> f64 {
-        if self.count > 0.0 { (cost / self.count).exp() - LEAST_SQUARE } else { f64::INFINITY }
-    }
-
-    /// What is left under a task, or as the run has it.
-    fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
-        let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
-        let (rest, slopes) = (self.rest(&under.predict(&[], &self.overrides())?), &self.slopes);
-        // What the nominal parameters can take of them within their tolerances is taken off.
-        let by_rest = self.columns.transpose() * &rest - &self.strain;
-        let by_slopes = self.columns.transpose() * slopes;
-        let (taken, taken_slopes) = (self.known.solve(&by_rest), self.known.solve(&by_slopes));
-        Ok(Moments {
-            squares: rest.norm_squared() + self.strain.norm_squared() - by_rest.dot(&taken),
-            slopes: slopes.norm_squared() - by_slopes.dot(&taken_slopes),
-            products: rest.dot(slopes) - by_rest.dot(&taken_slopes),
-            count: self.count,
-        })
-    }
-}
-
-/// How steeply a level is predicted to change about a sample.
-fn slope(track: &Track, predicted: &[f64], k: usize) -> f64 {
-    let instants = &track.grid.instants[track.first..];
-    (predicted[k + 1] - predicted[k - 1]) / (instants[k + 1] - instants[k - 1]).max(1e-9)
-}
-
-/// Of all levels of a device: squares of what is left, of the slopes, and their products, in units of the floors.
-struct Moments {
-    squares: f64,
-    slopes: f64,
-    products: f64,
-    count: f64,
-}
-
-impl Moments {
-    /// The mean square of what is left of reports that are so old.
-    fn mean_square(&self, age: f64) -> f64 {
-        let sum = self.squares + 2.0 * age * self.products + age * age * self.slopes;
-        if self.count > 0.0 { sum.max(0.0) / self.count } else { 0.0 }
-    }
-
-    /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, with a scale of its own.
-    fn cost(&self, age: f64) -> f64 {
-        self.count * (LEAST_SQUARE + self.mean_square(age)).ln()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::io::Cursor;
 
     use super::*;
     use crate::device::KINDS;
-    use crate::gap::{Recording, Study};
+    use crate::gap::{Overrides, Predicted, Recording, Study};
     use crate::plant::{self, embedded::Embedded};
     use crate::trace::Reader;
 
@@ -515,16 +308,9 @@ mod tests {
         assert!(taken[0] != taken[1] && taken[1] != taken[2] && taken[0] != taken[2], "{taken:?}");
     }
 
-    #[test]
-    fn an_age_shows_in_what_moves() {
-        let moments = Moments { squares: 100.0 * 4.0, slopes: 100.0 * 4e6, products: -100.0 * 4e3, count: 100.0 };
-        // Off by twice the floor at 2000 floors a second: 1 ms.
-        assert!(moments.mean_square(1e-3) < 1e-9 && moments.mean_square(0.0) == 4.0);
-    }
-
-    /// Targets of an axis, a ramp with a corner every 0.3 s, and of a motor that turns round at each; reports of both every 50 ms, which
-    /// `value` says.
-    fn recorded(value: impl Fn(&str, usize) -> f64) -> Study {
+    /// Targets of an axis, a ramp with a corner every 0.3 s, and of a motor that turns round at each; reports of `signals` every 50 ms,
+    /// which `value` says.
+    fn recorded(signals: &[Signal], value: impl Fn(Signal, usize) -> f64) -> Study {
         let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
         let mut lines: Vec<(f64, String)> = Vec::new();
         let entry = |name: &str, value: f64| format!("{{\"name\":\"{name}\",\"value\":{value:.5}}}");
@@ -543,11 +329,13 @@ mod tests {
             lines.push((0.0103 + 0.020_037 * step as f64, format!("\"automation\",\"SendValue\":[{told}]")));
         }
         for look in 0..800 {
-            let told = SIGNALS.map(|(device, name)| match name {
-                "encoder" => format!("{{\"name\":\"{device}.{name}\",\"value\":{:.0}}}", value(device, look).floor()),
-                _ => entry(&format!("{device}.{name}"), value(device, look)),
+            let told = signals.iter().map(|&(device, name)| match name {
+                "encoder" => {
+                    format!("{{\"name\":\"{device}.{name}\",\"value\":{:.0}}}", value((device, name), look).floor())
+                }
+                _ => entry(&format!("{device}.{name}"), value((device, name), look)),
             });
-            let told = told.join(",");
+            let told = told.collect::<Vec<_>>().join(",");
             lines.push((0.0041 + 0.05 * look as f64, format!("\"plant\",\"SendValue\":[{told}]")));
         }
         lines.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -562,30 +350,59 @@ mod tests {
     const AS_DECLARED: f64 = 20.0;
     /// The step of its targets, rad/s: of three of them it speeds up in the 0.3006 s between two commands at 20.16 rad/s².
     const STEP: f64 = 2.0198;
-    const SIGNALS: [(&str, &str); 2] = [("Axis", "position"), ("Motor", "encoder")];
+    const SIGNALS: [Signal; 2] = [("Axis", "position"), ("Motor", "encoder")];
 
-    /// What is found where the machine's task is `told`, its motor being built to this acceleration, rad/s².
-    fn found(told: Task, built: f64) -> Task {
-        let still = recorded(|_, _| 0.0);
-        let aged = SIGNALS.map(|(device, name)| {
+    /// A device and what it reports.
+    type Signal = (&'static str, &'static str);
+
+    /// What is recorded of `signals` where the machine's task is `told` and its motor is built to this acceleration, rad/s²; each report times
+    /// what `factor` says.
+    fn study(signals: &[Signal], told: Task, built: f64, factor: impl Fn(Signal) -> f64) -> Study {
+        let still = recorded(signals, |_, _| 0.0);
+        let values = |(device, name): Signal| {
             let mut subject = still.subject(device).expect("it moves").clone();
             subject.set_tick(0, 0.0, 0.0);
             subject.set_task(0, told);
-            let place = subject.signals.iter().position(|info| info.property == name).expect("its position");
+            let place = subject.signals.iter().position(|info| info.property == name).expect("its signal");
             let mut as_built = Overrides::none();
             if device == "Motor" {
                 as_built.0.insert("acceleration".to_owned(), built);
             }
             match subject.predict(&[], &as_built).expect("a prediction").runs[0][place].clone() {
-                Predicted::Level(values) => (device, values),
+                Predicted::Level(values) => values,
                 other => panic!("{other:?}"),
             }
-        });
-        let of = |device: &str, look: usize| {
-            let (_, values) = aged.iter().find(|(name, _)| *name == device).expect("one of both");
-            values[look.min(values.len() - 1)]
         };
-        recorded(of).tasks[0]
+        let each: Vec<(Signal, Vec<f64>)> = signals.iter().map(|signal| (*signal, values(*signal))).collect();
+        recorded(signals, |signal, look| {
+            let (_, values) = each.iter().find(|(other, _)| *other == signal).expect("one of them");
+            factor(signal) * values[look.min(values.len() - 1)]
+        })
+    }
+
+    /// What is found where the machine's task is `told`, its motor being built to this acceleration, rad/s².
+    fn found(told: Task, built: f64) -> Task {
+        study(&SIGNALS, told, built, |_| 1.0).tasks[0]
+    }
+
+    /// Millimetres for metres are no matter of age, and leave the speed its say.
+    #[test]
+    fn what_is_far_off_has_no_say_beside_what_is_not() {
+        let of = |factor: f64| {
+            let signals = [("Axis", "position"), ("Axis", "velocity")];
+            let study = study(
+                &signals,
+                Task::default(),
+                AS_DECLARED,
+                |(_, name)| if name == "position" { factor } else { 1.0 },
+            );
+            let axis = study.subject("Axis").expect("it moves").only(0);
+            let voter = Voter::new(axis).expect("it can be built").expect("it moves");
+            let name = |(place, _): &(usize, usize)| voter.subject.signals[*place].property.clone();
+            voter.kept.iter().map(name).collect::<std::collections::BTreeSet<_>>().into_iter().collect::<Vec<_>>()
+        };
+        assert_eq!(of(1.0), ["position", "velocity"]);
+        assert_eq!(of(1000.0), ["velocity"]);
     }
 
     /// From one report to the next an axis that lags by 40 ms does anything: a slope over two of them would be half of what it is.

@@ -1,0 +1,293 @@
+//! The devices that have a say in what is common to all: what of their levels moves, how that goes with the age of reports and with nominal
+//! parameters that may be off, and what they say together.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::{EXPLAINED, LEAST_DEVICES, LEAST_SQUARE, MOST_AGE_S, NEARER, Task};
+use crate::effect::EffectError;
+use crate::gap::cause::{Nuisance, nuisances};
+use crate::gap::locate::THRESHOLD;
+use crate::gap::overrides::Overrides;
+use crate::gap::prediction::{Predicted, Prediction};
+use crate::gap::subject::Subject;
+use crate::gap::track::Track;
+use crate::value::Quantity;
+
+/// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
+const CENTRINGS: u32 = 6;
+const SHORTENINGS: u32 = 3;
+const FURTHEST: f64 = 3.0;
+/// By how many standard deviations a nominal parameter is moved to see how the samples move with it. What a whole one does is no slope:
+/// whether a ramp ends before the next command, and where all that follows is, may turn within it.
+const NUDGE: f64 = 0.02;
+/// The least age from which slopes are taken, s.
+const LEAST_SPAN_S: f64 = 1e-4;
+/// How much nearer each of the others must come where they contradict one, in deviance: χ² of one degree of freedom at 0.1 %.
+const SURELY_NEARER: f64 = 10.83;
+/// What is so many times further off than the greatest age could move it, such as metres that are told as millimetres, has no say where
+/// anything else of the device has.
+const FAR_OFF: f64 = 30.0;
+/// Steps of the age, s, and into how many the best one's neighbourhood is divided.
+const STEP_S: f64 = 2e-5;
+const FINER: i32 = 10;
+
+/// A device that has a say: what of its levels moves, and how that goes with nominal parameters that may be off.
+#[derive(Clone)]
+pub(super) struct Voter {
+    pub subject: Subject,
+    /// Samples that move, by signal and place in its track.
+    pub kept: Vec<(usize, usize)>,
+    /// How many independent samples they are.
+    count: f64,
+    /// Nominal parameters with a tolerance, and how many standard deviations each is taken to be off.
+    free: Vec<Nuisance>,
+    strain: DVector<f64>,
+    /// How far a standard deviation more of each of them moves the samples, in floors.
+    columns: DMatrix<f64>,
+    /// How far each second of age moves them, in floors.
+    slopes: DVector<f64>,
+    /// Of the columns' squares, with what is known of the parameters beforehand.
+    known: Cholesky<f64, Dyn>,
+}
+
+impl Voter {
+    /// A subject of one run; `None` where nothing moves.
+    pub fn new(subject: Subject) -> Result<Option<Voter>, EffectError> {
+        let nominal = subject.predict(&[], &Overrides::none())?;
+        let mut voter = Voter {
+            kept: Vec::new(),
+            count: 0.0,
+            free: nuisances(&subject, &nominal),
+            strain: DVector::zeros(0),
+            columns: DMatrix::zeros(0, 0),
+            slopes: DVector::zeros(0),
+            known: Cholesky::pack_dirty(DMatrix::zeros(0, 0)),
+            subject,
+        };
+        voter.kept = voter.moving(&nominal);
+        if voter.kept.is_empty() {
+            return Ok(None);
+        }
+        voter.count = voter.kept.iter().map(|(place, _)| voter.subject.runs[0].floors[*place].share()).sum();
+        voter.strain = DVector::zeros(voter.free.len());
+        Ok(Some(voter))
+    }
+
+    /// Takes the nominal parameters to be what they are best under a task: how they move the samples is no straight line.
+    pub fn centre(&mut self, task: Task) -> Result<(), EffectError> {
+        let under = self.under(task);
+        self.linearise(task)?;
+        let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
+            let rest = voter.rest(&under.predict(&[], &voter.overrides())?) + &voter.slopes * task.age_s;
+            let cost = rest.norm_squared() + voter.strain.norm_squared();
+            Ok((rest, cost))
+        };
+        let (mut rest, mut cost) = left(self)?;
+        for _ in 0..CENTRINGS {
+            let mut step = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+            let from = self.strain.clone();
+            let before = cost;
+            for _ in 0..SHORTENINGS {
+                // Further off nobody builds: what asks for it is a gap.
+                self.strain = (&from + &step).map(|strain| strain.clamp(-FURTHEST, FURTHEST));
+                cost = left(self)?.1;
+                if cost <= before {
+                    break;
+                }
+                step *= 0.5;
+            }
+            self.linearise(task)?;
+            if before - cost < NEARER {
+                break;
+            }
+            (rest, cost) = left(self)?;
+        }
+        Ok(())
+    }
+
+    /// Finds how the samples move with the nominal parameters, and with their age. The latter is asked of the model: between two reports
+    /// of a coarse cycle an axis may speed up and be slow again, and their difference knows nothing of it.
+    fn linearise(&mut self, task: Task) -> Result<(), EffectError> {
+        let under = self.under(task);
+        let base = self.rest(&under.predict(&[], &self.overrides())?);
+        let age_s = task.age_s.max(LEAST_SPAN_S);
+        let mut older = under.clone();
+        older.set_task(0, Task { age_s, filter_s: 0.0, ..task });
+        self.slopes = (self.rest(&older.predict(&[], &self.overrides())?) - &base) / age_s;
+        self.columns = DMatrix::zeros(base.len(), self.free.len());
+        for column in 0..self.free.len() {
+            let mut beside = self.overrides();
+            beside.0.insert(self.free[column].name.to_owned(), self.free[column].at(self.strain[column] + NUDGE));
+            let moved = self.rest(&under.predict(&[], &beside)?);
+            self.columns.set_column(column, &((&base - &moved) / NUDGE));
+        }
+        let squares = self.columns.transpose() * &self.columns + DMatrix::identity(self.free.len(), self.free.len());
+        if let Some(known) = squares.cholesky() {
+            self.known = known;
+        }
+        Ok(())
+    }
+
+    /// The nominal parameters as they are taken to be.
+    fn overrides(&self) -> Overrides {
+        let each = self.free.iter().zip(&self.strain);
+        Overrides(each.map(|(nuisance, strain)| (nuisance.name.to_owned(), nuisance.at(*strain))).collect())
+    }
+
+    /// The subject under a task that is told at once.
+    fn under(&self, task: Task) -> Subject {
+        let mut subject = self.subject.clone();
+        subject.set_tick(0, 0.0, 0.0);
+        subject.set_task(0, Task { age_s: 0.0, filter_s: 0.0, ..task });
+        subject
+    }
+
+    fn moving(&self, nominal: &Prediction) -> Vec<(usize, usize)> {
+        let run = &self.subject.runs[0];
+        let (mut kept, mut far_off) = (Vec::new(), Vec::new());
+        for (place, predicted) in nominal.runs[0].iter().enumerate() {
+            // A force jumps with its command: a sample beside the jump is off by all of it, or by nothing.
+            let port = &self.subject.kind.ports[self.subject.signals[place].port];
+            if port.quantities.iter().any(|of| [Quantity::Force, Quantity::Torque].contains(of)) {
+                continue;
+            }
+            if let (Some(track), Predicted::Level(values)) = (&run.tracks[place], predicted) {
+                let floor = run.floors[place].rms(0.0);
+                let moves = |k: &usize| slope(track, values, *k).abs() * MOST_AGE_S > 0.1 * floor;
+                let seen = (1..values.len().saturating_sub(1)).filter(|k| !track.is_blind(track.first + k));
+                let moving: Vec<usize> = seen.filter(moves).collect();
+                let square = |of: &dyn Fn(usize) -> f64| moving.iter().map(|k| of(*k).powi(2)).sum::<f64>();
+                let off = square(&|k| track.values[k] - values[k]);
+                let by_age = square(&|k| MOST_AGE_S * slope(track, values, k)) + square(&|_| floor);
+                let is_far_off = off > FAR_OFF.powi(2) * by_age;
+                let to = if is_far_off { &mut far_off } else { &mut kept };
+                to.extend(moving.iter().map(|k| (place, *k)));
+            }
+        }
+        if kept.is_empty() { far_off } else { kept }
+    }
+
+    /// What is left of each sample, in floors; where noise remembers, as much less as it tells less.
+    fn rest(&self, prediction: &Prediction) -> DVector<f64> {
+        let run = &self.subject.runs[0];
+        let of = |&(place, k): &(usize, usize)| match (&run.tracks[place], &prediction.runs[0][place]) {
+            (Some(track), Predicted::Level(values)) => {
+                let half = if self.subject.signals[place].is_count { 0.5 } else { 0.0 };
+                let floor = run.floors[place];
+                let unit = floor.rms(0.0) / floor.share().sqrt();
+                (track.values[k] + half - values[k]) / unit
+            }
+            _ => 0.0,
+        };
+        DVector::from_iterator(self.kept.len(), self.kept.iter().map(of))
+    }
+
+    /// The mean square that [`Moments::cost`] came from.
+    pub fn mean_square_at(&self, cost: f64) -> f64 {
+        if self.count > 0.0 { (cost / self.count).exp() - LEAST_SQUARE } else { f64::INFINITY }
+    }
+
+    /// What is left under a task, or as the run has it.
+    pub fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
+        let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
+        let (rest, slopes) = (self.rest(&under.predict(&[], &self.overrides())?), &self.slopes);
+        // What the nominal parameters can take of them within their tolerances is taken off.
+        let by_rest = self.columns.transpose() * &rest - &self.strain;
+        let by_slopes = self.columns.transpose() * slopes;
+        let (taken, taken_slopes) = (self.known.solve(&by_rest), self.known.solve(&by_slopes));
+        Ok(Moments {
+            squares: rest.norm_squared() + self.strain.norm_squared() - by_rest.dot(&taken),
+            slopes: slopes.norm_squared() - by_slopes.dot(&taken_slopes),
+            products: rest.dot(slopes) - by_rest.dot(&taken_slopes),
+            count: self.count,
+        })
+    }
+}
+
+/// How steeply a level is predicted to change about a sample.
+fn slope(track: &Track, predicted: &[f64], k: usize) -> f64 {
+    let instants = &track.grid.instants[track.first..];
+    (predicted[k + 1] - predicted[k - 1]) / (instants[k + 1] - instants[k - 1]).max(1e-9)
+}
+
+/// Of all levels of a device: squares of what is left, of the slopes, and their products, in units of the floors.
+pub(super) struct Moments {
+    squares: f64,
+    slopes: f64,
+    products: f64,
+    count: f64,
+}
+
+impl Moments {
+    /// The mean square of what is left of reports that are so old.
+    pub fn mean_square(&self, age: f64) -> f64 {
+        let sum = self.squares + 2.0 * age * self.products + age * age * self.slopes;
+        if self.count > 0.0 { sum.max(0.0) / self.count } else { 0.0 }
+    }
+
+    /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, with a scale of its own.
+    pub fn cost(&self, age: f64) -> f64 {
+        self.count * (LEAST_SQUARE + self.mean_square(age)).ln()
+    }
+}
+
+/// The age that all devices but one agree on where that one alone speaks for `found`, s; else `found`. A motor's encoder knows an instant a
+/// hundred times better than what else there is, and would have its own delay taken for everybody's.
+pub(super) fn age_of_most(each: &[Moments], found: f64) -> f64 {
+    let mut most = (THRESHOLD, found);
+    for left_out in 0..each.len() {
+        let others: Vec<&Moments> =
+            each.iter().enumerate().filter(|(at, _)| *at != left_out).map(|(_, moments)| moments).collect();
+        let (_, age_s) = likeliest_age(&others);
+        let nearer = |moments: &&Moments| moments.cost(found) - moments.cost(age_s);
+        // What has a gap of its own may mean that by another age.
+        let agrees = |moments: &&&Moments| nearer(moments) > SURELY_NEARER && moments.mean_square(age_s) < EXPLAINED;
+        let sum = others.iter().map(nearer).sum::<f64>();
+        if sum > most.0 && others.iter().filter(agrees).count() >= LEAST_DEVICES {
+            most = (sum, age_s);
+        }
+    }
+    most.1
+}
+
+/// What devices cost together at the age at which they cost least, and that age, s.
+pub(super) fn likeliest_age(each: &[&Moments]) -> (f64, f64) {
+    let total = |age_s: f64| each.iter().map(|moments| moments.cost(age_s)).sum::<f64>();
+    let least = |ages: &mut dyn Iterator<Item = f64>| {
+        let costs = ages.filter(|age| (0.0..=MOST_AGE_S).contains(age)).map(|age| (total(age), age));
+        costs.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0.0))
+    };
+    let (_, near) = least(&mut (0..=(MOST_AGE_S / STEP_S) as i32).map(|step| f64::from(step) * STEP_S));
+    least(&mut (-FINER..=FINER).map(|step| near + f64::from(step) * STEP_S / f64::from(FINER)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_age_shows_in_what_moves() {
+        let moments = Moments { squares: 100.0 * 4.0, slopes: 100.0 * 4e6, products: -100.0 * 4e3, count: 100.0 };
+        // Off by twice the floor at 2000 floors a second: 1 ms.
+        assert!(moments.mean_square(1e-3) < 1e-9 && moments.mean_square(0.0) == 4.0);
+    }
+
+    /// Of reports that are as old as `age_s`, of a device that knows an instant to a few of `exact_s`.
+    fn speaking_for(age_s: f64, exact_s: f64) -> Moments {
+        let (count, slopes) = (1000.0, 1.0 / (exact_s * exact_s));
+        Moments { squares: count + age_s * age_s * slopes, slopes, products: -age_s * slopes, count }
+    }
+
+    /// A motor that is 60 µs late knows that a hundred times better than a robot and an axis know that they are not.
+    #[test]
+    fn one_device_is_not_heard_against_two() {
+        let [motor, robot, axis] =
+            [(6e-5, 1e-7), (0.0, 8e-6), (0.0, 8e-6)].map(|(age, exact)| speaking_for(age, exact));
+        let (_, found) = likeliest_age(&[&motor, &robot, &axis]);
+        assert!(found > 5e-5, "{found}");
+        assert!(age_of_most(&[motor, robot, axis], found) < 1e-5);
+        // Of two nobody knows which is late.
+        let two = [(6e-5, 1e-7), (0.0, 8e-6)].map(|(age, exact)| speaking_for(age, exact));
+        assert_eq!(age_of_most(&two, found), found);
+    }
+}
