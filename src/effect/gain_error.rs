@@ -1,5 +1,8 @@
-//! `gain-error`: the drive does `gain` times what it is told to: a speed on a ramped drive or a cylinder, a target on a
+//! `gain-error`: the drive does `gain` times what it is told to: a speed on a ramped drive or a cylinder, a motion on a
 //! robot's axis or an ideal one, a force on a servo axis.
+//!
+//! A robot's controller plans each axis's way to its target by the limits it knows, and the drive does `gain` times that way at `gain` times
+//! its speed; whether the axis has arrived is asked of where the drive is.
 //!
 //! Source: the multiplicative fault of an actuator (R. Isermann, Fault-Diagnosis Systems, Springer 2006, section 5.2).
 
@@ -12,16 +15,16 @@ use crate::plant::EffectPlace;
 pub static EFFECT: EffectDescriptor = EffectDescriptor {
     id: "gain-error",
     summary: "the drive does a multiple of what it is told to",
-    equation: "y = gain·x (x: speed, target or force)",
+    equation: "y = gain·x (x: speed, motion or force)",
     source: "Isermann, Fault-Diagnosis Systems, Springer 2006, 5.2",
     places: &[EffectPlace::Actuator],
     parameters: &[parameter("gain", ONE, (0.05, 20.0), 1.0, 1.05, "how many times")],
-    excited_by: "speeds, targets or forces other than 0",
+    excited_by: "speeds, ways or forces other than 0",
     build: Build::Stage(|values, site| {
-        let acts = match (site.has_dynamics(), site.is_ideal()) {
-            (true, _) => Acts::Force,
-            (_, true) => Acts::Motion,
-            _ => Acts::Reference,
+        let acts = match () {
+            () if site.has_dynamics() => Acts::Force,
+            () if site.is_ideal() || site.is_robot() => Acts::Motion,
+            () => Acts::Reference,
         };
         Box::new(GainError { gain: values[0], acts })
     }),
@@ -77,7 +80,10 @@ mod tests {
         let gain = |component| [spec("actuator", "gain-error", component, &[("gain", 1.1)])];
         let run = [("velocityTarget", 0.5), ("motorDirection", -1.0)];
         with("StraightConveyor", &[], &gain(None)).check(&run, 1.0, &[("velocityActual", -0.55)]);
-        with("CartesianRobot", &[], &gain(Some("Z"))).check(&[("ZTarget", 0.5)], 2.0, &[("actualPosZ", 0.55)]);
+        // Half of the way, 0.25 m, takes 0.5 s at 2 m/s².
+        let mut robot = with("CartesianRobot", &[], &gain(Some("Z")));
+        robot.check(&[("ZTarget", 0.5)], 0.5, &[("actualPosZ", 0.275)]);
+        robot.check(&[], 1.5, &[("actualPosZ", 0.55), ("cartesianArrived", 0.0)]);
         let ideal = [("mode", "ideal")];
         with("ServoAxis", &ideal, &gain(None)).check(&[("positionTarget", 0.5)], 0.0, &[("position", 0.55)]);
         let mut pusher = with("Pusher", &[], &gain(None));

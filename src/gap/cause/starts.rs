@@ -4,6 +4,8 @@
 //! device does, a time above 0. What the recording itself shows (how late the edges are, how far a level lies off) is a start as
 //! well.
 
+use std::f64::consts::TAU;
+
 use super::candidate::{Candidate, Free};
 use super::scales::Scales;
 use super::{refresh, scan};
@@ -37,7 +39,7 @@ const LONGEST_S: f64 = 3.0;
 /// The most starts of one candidate.
 const MOST: usize = 48;
 
-/// Ratios of two units that are mistaken for one another.
+/// Ratios of two units that are mistaken for one another. (An inch is 25.4 mm and a foot 0.3048 m: ISO 80000-3:2019, annex.)
 const UNITS: &[f64] = &[
     1000.0,
     1e-3,
@@ -53,6 +55,17 @@ const UNITS: &[f64] = &[
     0.104_719_755_119_659_77,
     3.6,
     1.0 / 3.6,
+    // Inches in millimetres, centimetres and metres, feet, turns.
+    25.4,
+    1.0 / 25.4,
+    2.54,
+    1.0 / 2.54,
+    1e3 / 25.4,
+    0.025_4,
+    1.0 / 0.304_8,
+    0.304_8,
+    TAU,
+    1.0 / TAU,
 ];
 
 /// The candidate with its parameters: one for each choice among options, the others free.
