@@ -9,7 +9,7 @@ use super::tangent::{LEAST_OWN, orthonormal, product, take_out};
 use crate::gap::fit::{Range, Slopes};
 use crate::gap::floor::FLOOR_UNCERTAINTY;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
-use crate::gap::{Predicted, Prediction, Score};
+use crate::gap::{Predicted, Prediction, Score, THRESHOLD, evidence};
 use crate::plant::EffectPlace;
 use crate::prototype::kind::PortDescriptor;
 use crate::value::Quantity;
@@ -73,9 +73,12 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     // Late edges of one signal drown in what thousands of samples of a level cost less than their floor.
     let Standing { worst, above, .. } = Standing::of(&score);
     let by_friction = of_gap(&bench.subject.score(&*without_friction(bench, best)?)) - share;
-    let is_large = share > may_be_left(by_friction)
-        && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1));
     let mut depends = dependences(bench, &prediction, &score);
+    // What several floors were each thought to be a little too low is left of no gap: by itself no signal shows that anything is off.
+    let shows = !depends.is_empty() || evidence(bench.subject, &prediction) > THRESHOLD;
+    let is_large = share > may_be_left(by_friction)
+        && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1))
+        && shows;
     let trend = if best.set.is_empty() { None } else { trend(bench, best) };
     let (is_steady, is_surely_not) = trend.as_ref().map_or((true, false), Trend::judged);
     let drifts = !best.set.is_empty() && drift(bench, best).is_some_and(|drift| drift.is_sure(best, ladder.floor.0));
@@ -102,10 +105,21 @@ fn may_be_left(by_friction: f64) -> f64 {
     LEAST_SHARE.max(LEAST_SHARE_BESIDE_FRICTION.min(by_friction))
 }
 
+/// Whether friction or play is among the effects of `trial` and leaves no more of the gap than a law may: what a further effect would explain
+/// of that is how real ones bend.
+pub fn is_explained_by_friction(bench: &Bench<'_>, trial: &Trial, bare: &[f64]) -> bool {
+    let gap = |set: &[Candidate], at: &[f64]| Some(misfit(&bench.subject.score(&*bench.predict(set, at)?)));
+    let share = || Some(gap(&trial.set, &trial.at)? / gap(&[], bare)?.max(1e-9));
+    trial.set.iter().any(sticks) && share().is_some_and(|share| share <= LEAST_SHARE)
+}
+
+/// Whether an effect rubs or has play.
+fn sticks(candidate: &Candidate) -> bool {
+    candidate.place == EffectPlace::Mechanics || PLAY.contains(&candidate.effect.id)
+}
+
 /// What is predicted where nothing rubs or has play of what `best` names, and the rest is as it was fitted.
 fn without_friction(bench: &Bench<'_>, best: &Trial) -> Option<Arc<Prediction>> {
-    let sticks =
-        |candidate: &Candidate| candidate.place == EffectPlace::Mechanics || PLAY.contains(&candidate.effect.id);
     let (set, own): (Vec<Candidate>, Vec<&[f64]>) = best
         .values()
         .filter(|(candidate, _)| !sticks(candidate))
