@@ -70,7 +70,7 @@ impl Floor {
 
     /// The variance of what a recording costs where nothing is wrong and that is `mean` on average, by how few samples told its noise: what
     /// of it is more than [`FLOOR_UNCERTAINTY`], which all floors have.
-    pub fn variance_by_its_noise(&self, mean: f64) -> f64 {
+    pub(super) fn variance_by_its_noise(&self, mean: f64) -> f64 {
         mean * mean * (self.uncertainty.powi(2) - FLOOR_UNCERTAINTY.powi(2)).max(0.0)
     }
 

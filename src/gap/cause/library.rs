@@ -279,4 +279,23 @@ mod tests {
             assert!(built.is_ok(), "{start:?}");
         }
     }
+
+    #[test]
+    fn inches_and_feet_are_units_that_are_mistaken_for_metres() {
+        let study = slow();
+        let subject = study.subject("Axis").expect("it moves");
+        let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+        let found = candidates(subject, &nominal, &subject.score(&nominal), &|id| id == "wrong-unit");
+        let of_the_target: Vec<f64> = found
+            .iter()
+            .filter(|candidate| candidate.component.as_deref() == Some("positionTarget"))
+            .map(|candidate| candidate.fixed[0].1)
+            .collect();
+        for factor in [1000.0, 0.0254, 2.54, 0.3048] {
+            assert!(
+                of_the_target.iter().any(|found| (found / factor - 1.0).abs() < 1e-9),
+                "{factor} {of_the_target:?}"
+            );
+        }
+    }
 }

@@ -399,19 +399,50 @@ mod tests {
     use crate::plant::{self, embedded::Embedded};
     use crate::trace::Reader;
 
-    /// Friction too little to show in any level by itself: where it grows to nine times what it was that is said, where it stays as it is
-    /// nothing is.
-    #[test]
-    fn friction_that_grows_is_no_constant() {
+    /// The recorded axis, what it would do without friction, and friction as a candidate.
+    fn rubbing_axis() -> (Subject, Prediction, Vec<Candidate>) {
         let path = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
         let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
         let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
         let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
         let study = Study::new(&plant, &[recording]).expect("a study");
-        let mut subject = study.subject("Axis").expect("it moves").clone();
+        let subject = study.subject("Axis").expect("it moves").clone();
         let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
         let found = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "coulomb-friction");
         let rubs = vec![found.into_iter().next().expect("friction")];
+        (subject, nominal, rubs)
+    }
+
+    /// What friction explains to the last step leaves nothing for a second effect; without it all is left.
+    #[test]
+    fn friction_that_explains_a_gap_asks_for_no_second_effect() {
+        let (mut subject, nominal, rubs) = rubbing_axis();
+        let stop = || false;
+        let at = |bench: &Bench<'_>| [vec![30.0], bench.nominal(&rubs)].concat();
+        let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
+        let recorded = bench.predict(&rubs, &at(&bench)).expect("a prediction");
+        for (track, predicted) in subject.runs[0].tracks.iter_mut().zip(&recorded.runs[0]) {
+            if let (Some(track), Predicted::Level(values)) = (track, predicted) {
+                track.values.clone_from(values);
+            }
+        }
+        let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
+        let nothing = bench.nominal(&[]);
+        let trial = |set: &[Candidate], at: Vec<f64>| bench.trial(set, at).expect("a trial");
+        assert!(is_explained_by_friction(&bench, &trial(&rubs, at(&bench)), &nothing));
+        assert!(!is_explained_by_friction(
+            &bench,
+            &trial(&rubs, [vec![10.0], bench.nominal(&rubs)].concat()),
+            &nothing
+        ));
+        assert!(!is_explained_by_friction(&bench, &trial(&[], nothing.clone()), &nothing));
+    }
+
+    /// Friction too little to show in any level by itself: where it grows to nine times what it was that is said, where it stays as it is
+    /// nothing is.
+    #[test]
+    fn friction_that_grows_is_no_constant() {
+        let (mut subject, nominal, rubs) = rubbing_axis();
         let fitted = |subject: &Subject| -> (Trial, bool) {
             let stop = || false;
             let bench = Bench::new(subject, nuisances(subject, &nominal), &stop);

@@ -36,8 +36,7 @@ pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance>
     let property = |at: usize, signal: usize| study.subjects[at].signals[signal].property.as_str();
     let is_like = |of: &&(usize, usize, f64)| of.0 != place && property(of.0, of.1) == property(place, signal);
     let of_its_like = steps.iter().filter(is_like).map(|of| of.2).fold(0.0, f64::max);
-    let is_much = noise >= MUCH * quantile(&others, 0.5).max(LEAST) && noise >= MORE_THAN_ITS_LIKE * of_its_like;
-    if others.len() < OTHERS || !is_much {
+    if others.len() < OTHERS || !is_much(noise, quantile(&others, 0.5), of_its_like) {
         return None;
     }
     let runs = || subject.runs.iter().filter(|run| run.tracks[signal].is_some());
@@ -55,6 +54,11 @@ pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance>
     let misfit = count * (noise / usual.max(LEAST)).powi(2);
     let (subject, bare) = (subject.clone(), study.bare[place].clone());
     Some(Chance { candidate, bounds, subject, bare, misfit, law: None, signals: vec![signal] })
+}
+
+/// Whether a noise is far more than the `usual` one of the machine, and than that of the same report of other devices, all in steps.
+fn is_much(noise: f64, usual: f64, of_its_like: f64) -> bool {
+    noise >= MUCH * usual.max(LEAST) && noise >= MORE_THAN_ITS_LIKE * of_its_like
 }
 
 /// The noise of a level in its steps: the least of its recordings; `None` of what is no level, or does not move, or, if `only_long`, never
@@ -110,6 +114,13 @@ mod tests {
     fn law() -> Vec<f64> {
         let place = |k: u32| if (k / 100).is_multiple_of(2) { 0.0 } else { 50.0 * f64::from(k) };
         (0..600).map(place).collect()
+    }
+
+    /// Forces scatter by three steps where positions show next to nothing; one of two forces that scatters by thirty is a noise.
+    #[test]
+    fn a_force_is_held_against_forces() {
+        assert!(!is_much(3.1, 0.3, 0.0) && !is_much(7.5, 0.5, 7.2) && !is_much(20.0, 0.5, 7.2));
+        assert!(is_much(30.0, 0.5, 7.2) && is_much(6.0, 0.3, 0.0));
     }
 
     /// Differences of one unit with either sign: what moves says nothing.
