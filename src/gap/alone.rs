@@ -14,7 +14,8 @@ use crate::device::{Device, Role};
 
 /// Two instants nearer than this are one, s.
 pub(super) const SAME_S: f64 = 1e-9;
-/// How often the instant of an edge is halved: of a cycle of 20 ms, to a nanosecond.
+/// How well the instant of an edge is known, s: a thousandth of how far a sensor may be off. And how often a span is halved at most.
+const EDGE_S: f64 = 1e-7;
 const HALVINGS: u32 = 24;
 
 /// How long a device that a recording finds under way is given to settle, s.
@@ -329,6 +330,9 @@ fn becomes_in(leg: &Leg, next: Option<&Leg>, is_so: &mut dyn FnMut(&mut Box<dyn 
     }
     let (mut device, mut low, mut high) = (leg.device.clone(), leg.from, leg.to);
     for _ in 0..HALVINGS {
+        if high - low < EDGE_S {
+            break;
+        }
         let at = 0.5 * (low + high);
         let mut middle = device.clone();
         middle.advance(at - low);

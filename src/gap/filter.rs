@@ -107,12 +107,18 @@ pub(super) fn find_beside_parameters(
     let picked: Vec<Subject> = flagged.iter().map(|at| subjects[*at].clone()).collect();
     let known: Vec<Bare> = flagged.iter().map(|at| bare[*at].clone()).collect();
     let before = costs(&picked, &known);
-    let under = |filter_s: f64| -> Tried {
-        let each = picked.par_iter().zip(&known).zip(&flagged).with_max_len(1);
-        let each = each.map(|((subject, bare), at)| {
+    // Of a device that reports levels they say what its nominal parameters are, whatever becomes of its flags: while filters are tried those
+    // stay as they are, and are fitted beside the best of them.
+    let have_levels: Vec<bool> = picked.iter().map(|subject| subject.has_levels()).collect();
+    let fitted_under = |filter_s: f64, are_all: bool| -> Tried {
+        let each = picked.par_iter().zip(&known).zip(&flagged).zip(&have_levels).with_max_len(1);
+        let each = each.map(|(((subject, bare), at), has_levels)| {
             let mut subject = subject.clone();
             set(&mut subject, filter_s);
-            let bare = bare.again(&subject, &nominal[*at]);
+            let bare = match are_all || !has_levels {
+                true => bare.again(&subject, &nominal[*at]),
+                false => bare.held(&subject),
+            };
             (subject, bare)
         });
         let (subjects, bare): (Vec<Subject>, Vec<Bare>) = each.collect::<Vec<_>>().into_iter().unzip();
@@ -123,6 +129,7 @@ pub(super) fn find_beside_parameters(
         let cost = if further > NOT_FURTHER + SHARE_NOT_FURTHER * nearer { f64::INFINITY } else { cost };
         Tried { filter_s, cost, bare }
     };
+    let under = |filter_s: f64| fitted_under(filter_s, false);
     let nearer = |a: Tried, b: Tried| if b.cost < a.cost { b } else { a };
     let near = NEAR_THE_KNOWN.map(|share| share * known_s).into_iter().filter(|filter_s| *filter_s > 0.0);
     let mut best = near.chain(TRIED_S).map(under).reduce(nearer)?;
@@ -132,6 +139,10 @@ pub(super) fn find_beside_parameters(
     }
     if before.iter().sum::<f64>() - best.cost <= THRESHOLD {
         return None;
+    }
+    if have_levels.contains(&true) {
+        let fitted = fitted_under(best.filter_s, true);
+        best = nearer(best, fitted);
     }
     // Where only one device has flags, nobody can say whether a filter is its own or all inputs': every machine has one, so that it
     // is no gap where nothing else is left.

@@ -335,6 +335,11 @@ impl Subject {
             .collect()
     }
 
+    /// Whether it reports how far or how fast it is, and not only states.
+    pub(super) fn has_levels(&self) -> bool {
+        self.runs.iter().flat_map(|run| run.tracks.iter().flatten()).any(|track| !track.values.is_empty())
+    }
+
     /// The signals that sensors make of what they see, not the drive's own states.
     pub(super) fn sensors(&self) -> impl Iterator<Item = usize> {
         let is_sensor = |info: &SignalInfo| {
@@ -395,6 +400,14 @@ impl Subject {
     /// The same device in one of its runs.
     pub fn only(&self, run: usize) -> Subject {
         Subject { runs: vec![self.runs[run].clone()], ..self.clone() }
+    }
+
+    /// The same device of which only levels are looked at: a replay then need not find when states change.
+    pub(super) fn of_levels(mut self) -> Subject {
+        let is_state = |track: &Option<Track>| track.as_ref().is_some_and(|track| track.values.is_empty());
+        let tracks = self.runs.iter_mut().flat_map(|run| &mut run.tracks);
+        tracks.filter(|track| is_state(track)).for_each(|track| *track = None);
+        self
     }
 
     /// Sets the ticks of a run, s: that at which the machine looked at the device, and that at which it took commands up.

@@ -67,6 +67,12 @@ impl Bare {
         Bare { nuisances: bench.nuisances, at, overrides, prediction: Arc::unwrap_or_clone(prediction) }
     }
 
+    /// The same parameters, once the device is looked at otherwise.
+    pub fn held(&self, subject: &Subject) -> Bare {
+        let prediction = subject.predict(&[], &self.overrides).unwrap_or_else(|_| self.prediction.clone());
+        Bare { prediction, ..self.clone() }
+    }
+
     /// The same parameters in other recordings of the device.
     pub fn beside(&self, subject: &Subject, nominal: &Prediction) -> Bare {
         let prediction = match self.overrides.0.is_empty() {

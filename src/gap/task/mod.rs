@@ -23,9 +23,11 @@ pub const MOST_AGE_S: f64 = 2.5e-3;
 const TASKS_S: [f64; 7] = [0.0, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3];
 /// What part of a cycle a task may be at most.
 const OF_CYCLE: f64 = 0.2;
-/// How many phases of a task are tried; then nearer and nearer to the best, so many times. Of a motor that turns round a hundred times each
-/// command that is taken up a cycle late is counts for ever after: phases further apart than that miss the valley in which the best one lies.
-const PHASES: u32 = 64;
+/// How many phases of a task are tried at least and at most, and how near each other they are where that leaves a choice, s; then nearer and
+/// nearer to the best, so many times. Of a motor that turns round a hundred times each command that is taken up a cycle late is counts for
+/// ever after, the more the longer the cycle is: phases further apart miss the valley in which the best one lies.
+const PHASES: [u32; 2] = [16, 64];
+const PHASE_S: f64 = 7.5e-6;
 const HALVINGS: u32 = 7;
 /// Of how many cycles, the best first, the phase is found nearer before one is chosen.
 const NEARER_TASKS: usize = 3;
@@ -125,14 +127,21 @@ pub(super) fn find_phase(subjects: &[Subject], run: usize, known: Task) -> Resul
         }
         Ok(best.1)
     };
-    let whole = known.every_s / f64::from(PHASES);
-    let mut phase_s = try_all(&mut (0..PHASES).map(|phase| f64::from(phase) * whole))?;
+    let phases = phases_of(known.every_s);
+    let whole = known.every_s / f64::from(phases);
+    let mut phase_s = try_all(&mut (0..phases).map(|phase| f64::from(phase) * whole))?;
     for halving in 0..HALVINGS {
         let step = whole / f64::from(1u32 << halving);
         phase_s = try_all(&mut [-2.0, -1.0, 1.0, 2.0].into_iter().map(|steps| phase_s + steps * step))?;
     }
     phase_s = try_all(&mut phases_near(&voters, Task { phase_s, ..known }).into_iter())?;
     Ok(Task { phase_s, ..known })
+}
+
+/// How many phases of a task are tried at first; of commands that are taken up at once there is one.
+fn phases_of(every_s: f64) -> u32 {
+    let [least, most] = PHASES;
+    if every_s > 0.0 { ((every_s / PHASE_S).ceil() as u32).clamp(least, most) } else { 1 }
 }
 
 /// The phases near that of a task that are not one and the same: one for each span in which all commands are taken up at the same
@@ -146,7 +155,7 @@ fn phases_near(voters: &[Voter], task: Task) -> Vec<f64> {
 fn phases_between(commands: impl Iterator<Item = f64>, task: Task) -> Vec<f64> {
     const REACH: f64 = 6.0;
     let Task { every_s, phase_s, .. } = task;
-    let reach = REACH / f64::from(PHASES) * every_s;
+    let reach = REACH / f64::from(phases_of(every_s)) * every_s;
     // By how much later than the phase a command comes, at most half a cycle.
     let behind = |at: f64| (at - phase_s + 0.5 * every_s).rem_euclid(every_s) - 0.5 * every_s;
     let mut ends: Vec<f64> = commands.map(behind).filter(|behind| behind.abs() < reach).collect();
@@ -158,7 +167,8 @@ fn phases_between(commands: impl Iterator<Item = f64>, task: Task) -> Vec<f64> {
 
 /// The devices of a run that have a say.
 fn voters(subjects: &[Subject], run: usize) -> Result<Vec<Voter>, EffectError> {
-    let voters = subjects.par_iter().map(|subject| Voter::new(subject.only(run))).collect::<Result<Vec<_>, _>>()?;
+    let voter = |subject: &Subject| Voter::new(subject.only(run).of_levels());
+    let voters = subjects.par_iter().map(voter).collect::<Result<Vec<_>, _>>()?;
     Ok(voters.into_iter().flatten().collect())
 }
 
@@ -195,9 +205,9 @@ impl Best {
     /// The best of the phases of a task that are tried at first.
     fn of_phases(voters: &[Voter], every_s: f64) -> Result<Best, EffectError> {
         let mut best = Best::none();
-        let phases = if every_s > 0.0 { PHASES } else { 1 };
+        let phases = phases_of(every_s);
         for phase in 0..phases {
-            let phase_s = f64::from(phase) / f64::from(PHASES) * every_s;
+            let phase_s = f64::from(phase) / f64::from(phases) * every_s;
             best.weigh(voters, Task { every_s, phase_s, ..Task::default() })?;
         }
         Ok(best)
@@ -228,7 +238,7 @@ impl Best {
         best.weigh(voters, Task { age_s: 0.0, ..self.task })?;
         for halving in 0..HALVINGS {
             let found = best.task;
-            let step = found.every_s / f64::from(PHASES << halving);
+            let step = found.every_s / f64::from(phases_of(found.every_s) << halving);
             for phase_s in [-2.0, -1.0, 1.0, 2.0].map(|steps| found.phase_s + steps * step) {
                 let phase_s = phase_s.rem_euclid(found.every_s.max(f64::MIN_POSITIVE));
                 if found.every_s > 0.0 {
@@ -295,6 +305,37 @@ mod tests {
         assert!((task.taken_up(1.0001) - 1.0001).abs() < 1e-9);
         assert!((task.taken_up(1.00011) - 1.0006).abs() < 1e-9);
         assert_eq!(Task::default().taken_up(1.23), 1.23);
+    }
+
+    /// A fast task needs fewer phases than a slow one, whose commands come more of a cycle late.
+    #[test]
+    fn phases_are_near_enough_each_other() {
+        assert_eq!([0.0, 1e-4, 2e-4, 5e-4, 4e-3].map(phases_of), [1, 16, 27, 64, 64]);
+    }
+
+    /// States that nobody looks at change no level.
+    #[test]
+    fn levels_are_what_they_are_whether_states_are_looked_at_or_not() {
+        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let file = std::io::BufReader::new(std::fs::File::open(path).expect("the recording"));
+        let recording = Recording::read(&plant, path, Reader::new(path, file).expect("a trace"), &[]);
+        let study = Study::new(&plant, &[recording.expect("a recording")]).expect("a study");
+        let mut compared = 0;
+        for subject in &study.subjects {
+            let all = subject.predict(&[], &Overrides::none()).expect("a prediction");
+            let levels = subject.clone().of_levels().predict(&[], &Overrides::none()).expect("a prediction");
+            for (one, other) in all.runs[0].iter().zip(&levels.runs[0]) {
+                match (one, other) {
+                    (Predicted::Level(one), Predicted::Level(other)) => {
+                        compared += one.len();
+                        assert!(one.iter().zip(other).all(|(a, b)| (a - b).abs() < 1e-9), "{}", subject.name);
+                    }
+                    (_, other) => assert_eq!(*other, Predicted::Nothing, "{}", subject.name),
+                }
+            }
+        }
+        assert!(compared > 1000, "{compared}");
     }
 
     /// Of commands that come 0.1, 0.11 and 0.4 ms behind the task's cycle two stand near a phase of 0.104 ms: three phases differ.
