@@ -58,6 +58,18 @@ impl Candidate {
         self.effect.id == "parameter-error"
     }
 
+    /// How many numbers say what it does: those that are free, and of a signal that never changes since when it is stuck, which nothing that
+    /// was recorded tells. So a switch that is blind over any way that is long enough has no number more.
+    pub fn numbers(&self) -> usize {
+        self.free.len() + usize::from(self.effect.id == "stuck" && self.free.is_empty())
+    }
+
+    /// Whether it sets in above an acceleration alone. Of a drive that slips above 1.986 m/s² its highest acceleration is found a little too
+    /// low, which is the best that can be had without the slip; and with the drive that slow nothing slips. Only with both free it shows.
+    pub fn hides_in_a_limit(&self) -> bool {
+        ["belt-slip-above-acceleration", "part-slip"].contains(&self.effect.id)
+    }
+
     /// The ranges of its free parameters.
     pub fn ranges(&self) -> impl Iterator<Item = Range> {
         self.free.iter().map(|free| free.range)
@@ -67,5 +79,30 @@ impl Candidate {
     pub fn name(&self) -> String {
         let of = self.component.as_ref().map(|component| format!(" of {component}")).unwrap_or_default();
         format!("{} at the {}{of}", self.effect.id, self.place.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::EFFECTS;
+
+    /// Metres that are told as millimetres need no number; a switch that never shows may be stuck since whenever.
+    #[test]
+    fn what_is_stuck_from_the_start_is_so_since_an_instant_that_nobody_knows() {
+        let numbers = |id: &str| {
+            let effect = EFFECTS.iter().find(|effect| effect.id == id).expect("an effect of the library");
+            let candidate = Candidate {
+                effect,
+                place: EffectPlace::ReportLink,
+                component: None,
+                texts: BTreeMap::new(),
+                fixed: vec![("from", 0.0)],
+                free: Vec::new(),
+                starts: vec![Vec::new()],
+            };
+            candidate.numbers()
+        };
+        assert_eq!(["wrong-unit", "inverted", "stuck"].map(numbers), [0, 0, 1]);
     }
 }

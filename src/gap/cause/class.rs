@@ -95,7 +95,7 @@ fn answer(
     // same motion is another name for it.
     alternatives.retain(|alternative| {
         let candidate = alternative.candidate();
-        let holds_it = alternative.distance < SAME_CLASS * inflation && candidate.free.len() > named.free.len();
+        let holds_it = alternative.distance < SAME_CLASS * inflation && candidate.numbers() > named.numbers();
         let is_alias = candidate.is_parameter_error() && !named.is_parameter_error() && alternative.is_same;
         !holds_it && !is_alias
     });
@@ -118,7 +118,7 @@ fn alternative(bench: &Bench<'_>, best: &Trial, named: &Candidate, trial: Trial)
     let output = bench.predict(&best.set, &best.at)?;
     let distance = bench.distance(&output, &trial.set, &trial.at)?;
     let last = trial.set.last()?;
-    let is_same = distance < SAME_CLASS * best.inflation() && last.free.len() <= named.free.len();
+    let is_same = distance < SAME_CLASS * best.inflation() && last.numbers() <= named.numbers();
     Some(Alternative { trial, distance, is_same, weight: 0.0 })
 }
 

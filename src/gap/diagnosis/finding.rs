@@ -169,7 +169,7 @@ fn name_what_lets_go_at_once(finding: &mut Finding) {
 /// Of the effects that give the same motion one without any number is named, such as metres that are told as millimetres: that a number
 /// could be what does the same is no chance. Else it is the plainest; a nominal parameter that gives it too is another name for it.
 fn name_the_plainest(finding: &mut Finding) {
-    let rank = |candidate: &Candidate| (!candidate.free.is_empty(), plainness(candidate));
+    let rank = |candidate: &Candidate| (candidate.numbers() > 0, plainness(candidate));
     for answer in &mut finding.answers {
         let best = &mut finding.ladder.best;
         let named = rank(&best.set[answer.place]);
@@ -185,8 +185,8 @@ fn name_the_plainest(finding: &mut Finding) {
         let trial = std::mem::replace(&mut answer.alternatives[at].trial, best.clone());
         *best = trial;
         if !best.set[0].is_parameter_error() {
-            let is_certain = best.set[0].free.is_empty();
-            let holds_it = |other: &Alternative| is_certain && !other.candidate().free.is_empty();
+            let is_certain = best.set[0].numbers() == 0;
+            let holds_it = |other: &Alternative| is_certain && other.candidate().numbers() > 0;
             let is_alias =
                 |other: &Alternative| other.is_same && (other.candidate().is_parameter_error() || holds_it(other));
             let aliases: f64 =
