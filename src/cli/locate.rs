@@ -241,11 +241,12 @@ fn heard_text(recording: &Heard<'_>) -> String {
     for (notice, count) in recording.notices {
         note(format!("{notice} ({count} times)"));
     }
-    let Task { every_s, phase_s, age_s, filter_s } = recording.task;
+    let Task { every_s, phase_s, age_s, filter_s, scatter_s } = recording.task;
     let task = format!("a task every {:.1} ms from {:.2} ms on", 1e3 * every_s, 1e3 * phase_s);
     let age = format!("reports {:.2} ms old", 1e3 * age_s);
     let filter = format!("flags filtered {:.1} ms", 1e3 * filter_s);
-    let common = [(every_s, task), (age_s, age), (filter_s, filter)];
+    let scatter = format!("commands {:.3} ms sooner or later than their stamps say", 1e3 * scatter_s);
+    let common = [(every_s, task), (age_s, age), (filter_s, filter), (scatter_s, scatter)];
     let common: Vec<String> = common.into_iter().filter(|(span, _)| *span > 0.0).map(|(_, words)| words).collect();
     if !common.is_empty() {
         note(format!("common to all devices: {}", common.join(", ")));

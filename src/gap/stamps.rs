@@ -19,7 +19,7 @@ use super::subject::Subject;
 /// As near as instants are taken to be known at all, s.
 pub(super) const LEAST_S: f64 = 10e-6;
 /// As far as they are looked for, s: what is off by more has another reason.
-const MOST_S: f64 = 50e-6;
+pub(super) const MOST_S: f64 = 50e-6;
 /// How many levels have to say it, and on how many samples each.
 const LEVELS: usize = 2;
 const ENOUGH: usize = 60;

@@ -97,6 +97,11 @@ impl Study {
                 // The rest of a recording is of the same machine.
                 Some(tick) if recording.resumes => {
                     subjects.iter_mut().for_each(|subject| subject.keep_tick(run));
+                    let scatter_s = subjects.first().map_or(0.0, |subject| subject.runs[run].task.scatter_s);
+                    if scatter_s > 0.0 {
+                        let bare = within_tolerances(&mut subjects)?;
+                        find_ways(&mut subjects, &bare, run, Some(scatter_s))?;
+                    }
                     *tick
                 }
                 _ => {
@@ -233,6 +238,10 @@ fn find_task(
             subject.set_tick(run, 0.0, 0.0);
             subject.set_task(run, task);
         });
+        if task.scatter_s > 0.0 {
+            let bare = within_tolerances(subjects)?;
+            find_ways(subjects, &bare, run, Some(task.scatter_s))?;
+        }
         // Its reports are as old as those of the training within some ten microseconds: as far as is taken of a run without a task.
         return Ok(Some(task.every_s));
     }
@@ -243,10 +252,14 @@ fn find_task(
             subject.set_task(run, task);
         });
     }
-    let bare = match found {
-        Some(_) => find_timing(subjects, run)?,
-        None => within_tolerances(subjects)?,
+    let as_found = |subjects: &mut [Subject]| match found {
+        Some(_) => find_timing(subjects, run),
+        None => within_tolerances(subjects),
     };
+    let mut bare = as_found(subjects)?;
+    if main.is_rebuilt && find_ways(subjects, &bare, run, None)? {
+        bare = as_found(subjects)?;
+    }
     let filter_s = if main.is_rebuilt { filter::find(subjects, &bare, run) } else { 0.0 };
     if filter_s > 0.0 {
         subjects.iter_mut().for_each(|subject| {
@@ -255,6 +268,16 @@ fn find_task(
         });
     }
     Ok(found.map(|task| task.every_s))
+}
+
+/// When the commands of a run acted whose ways scatter, which is set in all subjects; `known`: by how much they do, s.
+/// Whether there are such.
+fn find_ways(subjects: &mut [Subject], bare: &[Bare], run: usize, known: Option<f64>) -> Result<bool, EffectError> {
+    let found = task::find_ways(subjects, bare, run, known)?;
+    if let Some(ways) = &found {
+        subjects.iter_mut().for_each(|subject| subject.act_later(run, ways));
+    }
+    Ok(found.is_some())
 }
 
 /// How far the instants of a run are off once its task is known, which is set in all subjects; each as its tolerances let it stand.

@@ -18,7 +18,7 @@ use super::samples::Samples;
 use super::score::{Score, SignalScore};
 use super::study::Grids;
 use super::surroundings::{self, Sizes};
-use super::task::Task;
+use super::task::{Task, Ways};
 use super::tolerance::rests;
 use super::track::Track;
 use super::world::Script;
@@ -420,6 +420,14 @@ impl Subject {
     /// Sets what is common to all devices of a run.
     pub(super) fn set_task(&mut self, run: usize, task: Task) {
         self.runs[run].task = task;
+    }
+
+    /// Has the commands of a run act as much later than their stamps say as their ways were longer than most.
+    pub(super) fn act_later(&mut self, run: usize, ways: &Ways) {
+        let run = &mut self.runs[run];
+        run.task.scatter_s = ways.scatter_s;
+        run.commands.iter_mut().for_each(|(_, told)| told.at += ways.later(told.at));
+        run.commands.sort_by(|a, b| a.1.at.total_cmp(&b.1.at));
     }
 
     /// Takes the ticks of a run from the one before it.

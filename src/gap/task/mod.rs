@@ -8,6 +8,7 @@
 //! most [`MOST_FILTER_S`](super::filter::MOST_FILTER_S).
 
 mod voter;
+mod ways;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -16,6 +17,7 @@ use super::locate::THRESHOLD;
 use super::subject::Subject;
 use crate::effect::EffectError;
 use voter::{Moments, Voter, age_of_most, likeliest_age};
+pub(super) use ways::{Ways, find as find_ways};
 
 /// How old a report may be, s.
 pub const MOST_AGE_S: f64 = 2.5e-3;
@@ -57,6 +59,8 @@ pub struct Task {
     pub age_s: f64,
     /// By how much later than that flags are reported, s.
     pub filter_s: f64,
+    /// By how much the ways of commands scatter, standard deviation, s; 0 where that does not show.
+    pub scatter_s: f64,
 }
 
 impl Task {
@@ -351,7 +355,7 @@ mod tests {
 
     /// Targets of an axis, a ramp with a corner every 0.3 s, and of a motor that turns round at each; reports of `signals` every 50 ms,
     /// which `value` says.
-    fn recorded(signals: &[Signal], value: impl Fn(Signal, usize) -> f64) -> Study {
+    pub(super) fn recorded(signals: &[Signal], value: impl Fn(Signal, usize) -> f64) -> Study {
         let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
         let mut lines: Vec<(f64, String)> = Vec::new();
         let entry = |name: &str, value: f64| format!("{{\"name\":\"{name}\",\"value\":{value:.5}}}");
@@ -391,10 +395,10 @@ mod tests {
     const AS_DECLARED: f64 = 20.0;
     /// The step of its targets, rad/s: of three of them it speeds up in the 0.3006 s between two commands at 20.16 rad/s².
     const STEP: f64 = 2.0198;
-    const SIGNALS: [Signal; 2] = [("Axis", "position"), ("Motor", "encoder")];
+    pub(super) const SIGNALS: [Signal; 2] = [("Axis", "position"), ("Motor", "encoder")];
 
     /// A device and what it reports.
-    type Signal = (&'static str, &'static str);
+    pub(super) type Signal = (&'static str, &'static str);
 
     /// What is recorded of `signals` where the machine's task is `told` and its motor is built to this acceleration, rad/s²; each report times
     /// what `factor` says.
@@ -463,13 +467,13 @@ mod tests {
     /// Of a motor that turns round each microsecond counts for ever after.
     #[test]
     fn a_task_is_found_whose_phase_lies_between_those_that_are_tried() {
-        assert_found(Task { every_s: 1e-3, phase_s: 4.16e-4, age_s: 4.5e-4, filter_s: 0.0 }, AS_DECLARED, 2e-5);
+        assert_found(Task { every_s: 1e-3, phase_s: 4.16e-4, age_s: 4.5e-4, ..Task::default() }, AS_DECLARED, 2e-5);
     }
 
     /// A little beyond what it is built to, the motor's ramps over three steps would end before the next command: what a whole standard
     /// deviation more does to its encoder is not what a hundredth of it does.
     #[test]
     fn a_task_is_found_of_a_motor_whose_ramps_just_do_not_end() {
-        assert_found(Task { every_s: 1e-4, phase_s: 8.1e-5, age_s: 3.3e-4, filter_s: 0.0 }, 20.127, 5e-6);
+        assert_found(Task { every_s: 1e-4, phase_s: 8.1e-5, age_s: 3.3e-4, ..Task::default() }, 20.127, 5e-6);
     }
 }

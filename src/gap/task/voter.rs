@@ -38,14 +38,14 @@ pub(super) struct Voter {
     /// Samples that move, by signal and place in its track.
     pub kept: Vec<(usize, usize)>,
     /// How many independent samples they are.
-    count: f64,
+    pub count: f64,
     /// Nominal parameters with a tolerance, and how many standard deviations each is taken to be off.
     free: Vec<Nuisance>,
-    strain: DVector<f64>,
+    pub strain: DVector<f64>,
     /// How far a standard deviation more of each of them moves the samples, in floors.
-    columns: DMatrix<f64>,
+    pub columns: DMatrix<f64>,
     /// How far each second of age moves them, in floors.
-    slopes: DVector<f64>,
+    pub slopes: DVector<f64>,
     /// Of the columns' squares, with what is known of the parameters beforehand.
     known: Cholesky<f64, Dyn>,
 }
@@ -71,6 +71,14 @@ impl Voter {
         voter.count = voter.kept.iter().map(|(place, _)| voter.subject.runs[0].floors[*place].share()).sum();
         voter.strain = DVector::zeros(voter.free.len());
         Ok(Some(voter))
+    }
+
+    /// Takes the nominal parameters to be what they are known to be.
+    pub fn begin_at(&mut self, known: &Overrides) -> Result<(), EffectError> {
+        for (nuisance, strain) in self.free.iter().zip(self.strain.iter_mut()) {
+            *strain = known.0.get(nuisance.name).map_or(0.0, |value| nuisance.strain(*value));
+        }
+        self.linearise(self.subject.runs[0].task)
     }
 
     /// Takes the nominal parameters to be what they are best under a task: how they move the samples is no straight line.
@@ -180,6 +188,11 @@ impl Voter {
             _ => 0.0,
         };
         DVector::from_iterator(self.kept.len(), self.kept.iter().map(of))
+    }
+
+    /// What is left of each sample as the run has it.
+    pub fn left(&self) -> Result<DVector<f64>, EffectError> {
+        Ok(self.rest(&self.subject.predict(&[], &self.overrides())?))
     }
 
     /// The mean square that [`Moments::cost`] came from.
