@@ -6,13 +6,14 @@ use super::alone;
 use super::lane::{Beyond, End, Lane};
 use super::overrides::Overrides;
 use super::parts::middle;
+use super::recording::TaskId;
 use super::subject::{Subject, beam_of};
 use super::track::Track;
 use super::way::Way;
 use crate::device::{Belt, Place, Plate, Role, Surface as DeviceSurface, Transfer};
 use crate::effect::EffectError;
 use crate::kinematics::{Along, DPose3, DVec2, DVec3, Shape, Surface, Upright};
-use crate::plant::{ParameterValue, Plant, Pose};
+use crate::plant::{Instance, ParameterValue, Plant, Pose};
 
 /// What lies about a belt in one run.
 #[derive(Clone, Debug, Default)]
@@ -26,13 +27,28 @@ pub(super) struct Beside {
     pub way: Option<Way>,
 }
 
+impl Beside {
+    /// At which of the belt's beams what comes forwards was put by its bay, and how long those parts are along the belt, m: the first
+    /// ahead of the bay, where no belt leads to the start and no plate reaches.
+    pub fn fed_alone(&self, beams: &[Option<f64>; 2]) -> Option<(usize, f64)> {
+        let fed = self.fed.filter(|fed| fed.is_along && !matches!(self.lane.ends[0], End::Belt(_)))?;
+        let ahead = beams.iter().enumerate().filter_map(|(beam, at)| Some((beam, (*at).filter(|at| *at > fed.at)?)));
+        let (beam, _) = ahead.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        self.hands[beam].is_empty().then_some((beam, fed.length))
+    }
+}
+
 /// A bay that puts parts on a belt.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fed {
+    /// The bay.
+    pub bay: TaskId,
     /// Where it puts their middles, m from the belt's start.
     pub at: f64,
     /// How long they are along the belt, m.
     pub length: f64,
+    /// Whether they lie along the belt.
+    pub is_along: bool,
 }
 
 impl Fed {
@@ -51,8 +67,8 @@ pub(super) struct Layout {
     plates: Vec<(usize, DPose3, Plate, f64)>,
     /// Belts by their instances' names, and at which end a bay takes what comes.
     taken: Vec<(String, bool)>,
-    /// Belts by their instances' names; where a bay puts the middles of its parts, m from their start, and how long those are.
-    fed: Vec<(String, [f64; 2])>,
+    /// Belts by their instances' names, and how a bay feeds them.
+    fed: Vec<(String, Fed)>,
 }
 
 /// A belt where it stands.
@@ -187,8 +203,10 @@ impl Layout {
     /// The bay that feeds a belt, if it is one alone.
     fn fed(&self, standing: &Standing) -> Option<Fed> {
         let mut here = self.fed.iter().filter(|(belt, _)| *belt == standing.name);
-        let (Some((_, [at, length])), None) = (here.next(), here.next()) else { return None };
-        Some(Fed { at: *at, length: *length })
+        match (here.next(), here.next()) {
+            (Some((_, fed)), None) => Some(*fed),
+            _ => None,
+        }
     }
 
     /// When plates were out that reach over the beams of a belt, by beam.
@@ -248,14 +266,21 @@ fn bays(plant: &Plant) -> Vec<(String, bool)> {
     taken.collect()
 }
 
-/// The belts that bays put parts on: where their middles, and how long they are.
-fn feeds(plant: &Plant) -> Vec<(String, [f64; 2])> {
-    let tasks = plant.instances.iter().flat_map(|instance| &instance.tasks);
-    let sources = tasks.filter(|task| task.kind.name == "kinetwin.LoadingBay");
-    let put = sources.filter_map(|task| {
-        let parameters = &task.parameters;
+/// The belts that bays put parts on, and how.
+fn feeds(plant: &Plant) -> Vec<(String, Fed)> {
+    /// The cosine of how far a part that lies along a belt is turned at the most.
+    const ALONG: f64 = 0.995;
+    let of = |(instance, of): (usize, &Instance)| {
+        (0..of.tasks.len()).map(move |task| TaskId { instance, task }).collect::<Vec<_>>()
+    };
+    let bays = plant.instances.iter().enumerate().flat_map(of);
+    let sources = bays.filter(|bay| bay.task(plant).kind.name == "kinetwin.LoadingBay");
+    let put = sources.filter_map(|bay| {
+        let parameters = &bay.task(plant).parameters;
         let ParameterValue::Numbers(size) = &parameters.0.get("size")?.value else { return None };
-        Some((parameters.text("belt").to_owned(), [parameters.number("at"), *size.first()?]))
+        let (at, length) = (parameters.number("at"), *size.first()?);
+        let is_along = parameters.number("turn").cos().abs() > ALONG;
+        Some((parameters.text("belt").to_owned(), Fed { bay, at, length, is_along }))
     });
     put.collect()
 }

@@ -22,6 +22,7 @@
 
 mod alone;
 mod apply;
+mod bay;
 mod beginning;
 pub mod cause;
 mod chance;
@@ -52,7 +53,9 @@ mod regimes;
 pub mod report;
 mod restarts;
 mod samples;
+mod schedule;
 mod score;
+mod shifts;
 mod silence;
 mod stamps;
 pub mod statistics;

@@ -7,9 +7,7 @@
 
 use std::sync::Arc;
 
-use super::edges::{interval_cost, pair};
 use super::lane::{End, Lane, Rider, Step};
-use super::prediction::PredictedEdge;
 use super::track::Track;
 use super::world::{Cut, Script, Surrounding, Told};
 
@@ -24,6 +22,8 @@ pub(super) struct Geometry {
     pub tolerance: f64,
     /// The belt among its neighbours.
     pub lane: Arc<Lane>,
+    /// At which beam what comes forwards was put by a bay, and nothing else, and how long the parts of that are, m.
+    pub fed: Option<(usize, f64)>,
     /// Spans in which other hands may take a part out of a beam, s, by beam.
     pub hands: [Vec<(f64, f64)>; 2],
 }
@@ -39,9 +39,11 @@ const LENGTH_GATE_M: f64 = 0.1;
 const PASSES_M: f64 = 0.05;
 /// Which share of the parts of one barrier must reach the other for one that does not to be missed.
 const RELIABLE: f64 = 0.8;
-/// How far a part may be from where its first edge says, m.
-const LATENT_M: f64 = 0.25;
-
+/// After how many times the longest part's way a barrier that is cut still has been left by what cut it.
+const STAYS: f64 = 2.0;
+/// In how many of its parts both barriers must have been reached; where one then stayed cut, which no part does, in this many.
+const ENOUGH: usize = 3;
+const ENOUGH_BEFORE_IT_STAYED: usize = 1;
 /// What an edge of a barrier is to a score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
@@ -63,6 +65,8 @@ struct Seen {
     from: f64,
     to: f64,
     way: f64,
+    /// Whether it stayed cut though the belt went on by more than any part is long.
+    stays: bool,
     length: Option<f64>,
     part: Option<usize>,
 }
@@ -118,6 +122,8 @@ fn play_initial(beam: usize, track: &Track, script: &mut Script) {
 
 fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) -> f64) -> Vec<Seen> {
     let mut cuts = Vec::new();
+    let longest = geometry.lengths.iter().copied().fold(0.0, f64::max);
+    let last = track.grid.instants.last().copied().unwrap_or(0.0);
     for (rise, edge) in track.edges.iter().enumerate().filter(|(_, edge)| edge.to != 0.0) {
         let fall = track.edges.get(rise + 1).map(|_| rise + 1);
         let from = middle(track, edge.index);
@@ -129,7 +135,8 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
         let way = if end - before < 0.0 { -1.0 } else { 1.0 };
         let is_seen = geometry.beams[beam].is_some();
         if is_seen {
-            cuts.push(Seen { beam, rise, fall, start, from, to, way, length: None, part: None });
+            let stays = fall.is_none() && (travel(last) - start).abs() > STAYS * longest;
+            cuts.push(Seen { beam, rise, fall, start, from, to, way, stays, length: None, part: None });
         }
     }
     cuts
@@ -199,12 +206,15 @@ fn link(geometry: &Geometry, seen: &[Seen], factor: f64) -> Vec<Option<usize>> {
 /// Gives every part the length that its cuts fit best: one for both barriers, so that a barrier that is late at one edge shows.
 fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &dyn Fn(f64) -> f64) {
     let mut best: Vec<Option<(f64, f64)>> = vec![None; parts];
+    let known: Vec<Option<f64>> = (0..parts).map(|part| known_length(geometry, seen, part)).collect();
     let by_hands = |cut: &Seen| geometry.hands[cut.beam].iter().any(|(from, to)| (*from..=*to).contains(&cut.to));
     let by_belt = |cut: &Seen| cut.fall.is_some() && !by_hands(cut);
     for cut in seen.iter().filter(|cut| by_belt(cut)) {
-        let Some(best) = cut.part.and_then(|part| best.get_mut(part)) else { continue };
+        let Some(part) = cut.part.filter(|part| *part < parts) else { continue };
+        let (best, known) = (&mut best[part], &known[part]);
         let off = |length: f64| misses(geometry, cut, length, travel);
-        let Some((least, length)) = nearest(&geometry.lengths, off) else { continue };
+        let lengths = known.as_ref().map_or(geometry.lengths.as_slice(), std::slice::from_ref);
+        let Some((least, length)) = nearest(lengths, off) else { continue };
         // Two that touch cut it as one.
         let sums = geometry.lengths.iter().flat_map(|a| geometry.lengths.iter().map(move |b| a + b));
         let is_one = least < LENGTH_GATE_M.min(0.5 * LENGTH_GATE * length) || sums.map(off).all(|sum| least < sum);
@@ -212,11 +222,22 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
             *best = Some((least, length));
         }
     }
-    for cut in seen.iter_mut().filter(|cut| by_belt(cut)) {
+    for cut in seen.iter_mut().filter(|cut| by_belt(cut) || cut.stays) {
         let length = cut.part.and_then(|part| best[part]).map(|(_, length)| length);
+        if cut.stays {
+            cut.length = length;
+            continue;
+        }
         let fits = |length: &f64| misses(geometry, cut, *length, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length);
         cut.length = length.filter(fits);
     }
+}
+
+/// How long a part is that only a bay can have put, m.
+fn known_length(geometry: &Geometry, seen: &[Seen], part: usize) -> Option<f64> {
+    let first = seen.iter().find(|cut| cut.part == Some(part))?;
+    let (beam, length) = geometry.fed?;
+    (first.beam == beam && first.way > 0.0).then_some(length)
 }
 
 /// The length that is off the least, with how far it is off.
@@ -251,12 +272,23 @@ fn distance(geometry: &Geometry, beam: usize, way: f64) -> Option<f64> {
     Some(if beam == 0 { way * (b - a) } else { way * (a - b) })
 }
 
-/// Whether what passes the first beam reaches the second.
+/// Whether what passes the first beam reaches the second: as far as that still showed anything.
 fn is_reliable(seen: &[Seen], parts: usize) -> bool {
+    let until = [0, 1].map(|beam| {
+        let of_beam = seen.iter().filter(|cut| cut.beam == beam);
+        of_beam.map(|cut| if cut.to.is_finite() { cut.to } else { cut.from }).fold(f64::NEG_INFINITY, f64::max)
+    });
     let mut beams = vec![0; parts];
-    seen.iter().for_each(|cut| beams[cut.part.unwrap_or(0)] += 1);
+    let mut could = vec![false; parts];
+    for cut in seen {
+        let part = cut.part.unwrap_or(0);
+        beams[part] += 1;
+        could[part] |= cut.from <= until[1 - cut.beam];
+    }
     let both = beams.iter().filter(|count| **count == 2).count();
-    both as f64 >= RELIABLE * parts as f64 && both >= 3
+    let all = could.iter().filter(|could| **could).count();
+    let enough = if seen.iter().any(|cut| cut.stays) { ENOUGH_BEFORE_IT_STAYED } else { ENOUGH };
+    both as f64 >= RELIABLE * all as f64 && both >= enough
 }
 
 /// What one cut is in the script: moved with the belt from the part's first edge, or played back.
@@ -272,7 +304,9 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
     let taken = if cut.length.is_some() { None } else { Some(cut.to).filter(|to| to.is_finite()) };
     let length = cut.length.unwrap_or(f64::INFINITY);
     let front = geometry.beams[first.beam].unwrap_or_default();
-    script.cuts.push(Cut { part, beam: cut.beam, from: first.from, ahead, front, way: first.way, length, taken });
+    let is_known = known_length(geometry, seen, part).is_some();
+    let own = Cut { part, beam: cut.beam, from: first.from, ahead, front, way: first.way, length, is_known, taken };
+    script.cuts.push(own);
     // One that should have come to the other beam and did not is missed there.
     let is_alone = !seen.iter().enumerate().any(|(other, of)| other != at && of.part == cut.part);
     if let (true, true, Some(length), Some(between)) =
@@ -280,119 +314,8 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
         && between > 0.0
     {
         let beam = 1 - cut.beam;
-        script.cuts.push(Cut { part, beam, from: cut.from, ahead: between, front, way: cut.way, length, taken: None });
+        script.cuts.push(Cut { beam, from: cut.from, ahead: between, way: cut.way, length, taken: None, ..own });
     }
-}
-
-/// A barrier that parts pass.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Barrier<'a> {
-    pub track: &'a Track,
-    pub predicted: &'a [PredictedEdge],
-    /// How far its edges may be off in time, s.
-    pub sigma: f64,
-}
-
-/// An edge of a part, recorded and predicted.
-#[derive(Clone, Copy, Debug)]
-struct PartEdge<'a> {
-    track: &'a Track,
-    sigma: f64,
-    /// The grid's instant that showed it.
-    index: usize,
-    predicted: PredictedEdge,
-}
-
-/// How much further each part was than its first edge said, m.
-pub(super) fn likeliest_shifts(barriers: &[Barrier<'_>]) -> Vec<f64> {
-    edges_of_parts(barriers).iter().map(|edges| likeliest_shift(edges).1).collect()
-}
-
-/// What costs less than this is well enough explained.
-const EXPLAINED: f64 = 6.0;
-
-/// The script with other lengths for those parts whose edges say so: which of the plant's parts it was is known from the belt's way,
-/// and so by no more than that is. `None` where all are as likely as can be.
-pub(super) fn relengthed(script: &Script, lengths: &[f64], barriers: &[Barrier<'_>]) -> Option<Script> {
-    let mut other: Option<Script> = None;
-    for (part, edges) in edges_of_parts(barriers).into_iter().enumerate() {
-        let of_part = |cut: &&Cut| cut.part == part && cut.length.is_finite();
-        let Some(now) = script.cuts.iter().find(of_part).map(|cut| cut.length) else { continue };
-        let least = likeliest_shift(&edges).0;
-        if least < EXPLAINED {
-            continue;
-        }
-        let with = |length: f64| {
-            let longer = edges.iter().map(|edge| {
-                let by = if edge.predicted.to == 0.0 { now - length } else { 0.0 };
-                PartEdge { predicted: PredictedEdge { at: shifted(&edge.predicted, by), ..edge.predicted }, ..*edge }
-            });
-            likeliest_shift(&longer.collect::<Vec<_>>()).0
-        };
-        let costs = lengths.iter().map(|length| (with(*length), *length));
-        let Some((cost, length)) = costs.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-        if length != now && cost < least - 1.0 {
-            let cuts = &mut other.get_or_insert_with(|| script.clone()).cuts;
-            let own = cuts.iter_mut().filter(|cut| cut.part == part && cut.length.is_finite());
-            own.for_each(|cut| cut.length = length);
-        }
-    }
-    other
-}
-
-/// The edges of each part that were recorded and predicted.
-fn edges_of_parts<'a>(barriers: &[Barrier<'a>]) -> Vec<Vec<PartEdge<'a>>> {
-    let mut of_part: Vec<Vec<PartEdge<'a>>> = Vec::new();
-    for Barrier { track, predicted, sigma } in barriers {
-        for pair in pair(track, predicted, *sigma) {
-            let (Some(recorded), Some(foreseen)) = (pair.recorded, pair.predicted) else { continue };
-            let Some(part) = track.part(recorded) else { continue };
-            if of_part.len() <= part {
-                of_part.resize(part + 1, Vec::new());
-            }
-            let (index, predicted) = (track.edges[recorded].index, predicted[foreseen]);
-            of_part[part].push(PartEdge { track, sigma: *sigma, index, predicted });
-        }
-    }
-    of_part
-}
-
-/// What the edges of a part cost together at the least, and how much further it then was than its first edge said, m.
-fn likeliest_shift(edges: &[PartEdge<'_>]) -> (f64, f64) {
-    let cost = |shift: f64| -> f64 {
-        let edge = |edge: &PartEdge<'_>| {
-            let predicted = PredictedEdge { at: shifted(&edge.predicted, shift), ..edge.predicted };
-            interval_cost(edge.track, edge.index, &predicted, edge.sigma)
-        };
-        edges.iter().map(edge).sum::<f64>() + 1e-6 * shift * shift
-    };
-    // Every edge's own best, and the ends of what it allows.
-    let mut best = (cost(0.0), 0.0);
-    let mut step: f64 = 0.0;
-    for edge in edges {
-        let Some(passing) = edge.predicted.part else { continue };
-        let (before, seen) = super::edges::interval(edge.track, edge.index);
-        for share in [0.02, 0.25, 0.5, 0.75, 0.98] {
-            let wanted = before + share * (seen - before);
-            let shift = ((edge.predicted.at - wanted) * passing.speed).clamp(-LATENT_M, LATENT_M);
-            best = if cost(shift) < best.0 { (cost(shift), shift) } else { best };
-            step = step.max(0.25 * (seen - before) * passing.speed);
-        }
-    }
-    // Then halved in on.
-    for _ in 0..16 {
-        for shift in [best.1 - step, best.1 + step] {
-            best = if cost(shift) < best.0 { (cost(shift), shift) } else { best };
-        }
-        step *= 0.6;
-    }
-    best
-}
-
-/// When an edge comes of a part that is further by `shift`, s.
-pub(super) fn shifted(edge: &PredictedEdge, shift: f64) -> f64 {
-    const SLOWEST: f64 = 1e-3;
-    edge.part.map_or(edge.at, |passing| edge.at - shift / passing.speed.max(SLOWEST))
 }
 
 #[cfg(test)]
@@ -421,6 +344,17 @@ mod tests {
         }
     }
 
+    fn rig() -> Geometry {
+        Geometry {
+            beams: [Some(0.3), Some(1.7)],
+            lengths: vec![0.3],
+            tolerance: 0.0,
+            lane: Arc::default(),
+            fed: None,
+            hands: Default::default(),
+        }
+    }
+
     /// A belt of the rig's that always runs at 0.5 m/s.
     fn of_rig(a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
         of_rig_that(&|at| 0.5 * at, a, b)
@@ -428,14 +362,7 @@ mod tests {
 
     /// The same that goes this way.
     fn of_rig_that(travel: &dyn Fn(f64) -> f64, a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
-        let geometry = Geometry {
-            beams: [Some(0.3), Some(1.7)],
-            lengths: vec![0.3],
-            tolerance: 0.0,
-            lane: Arc::default(),
-            hands: Default::default(),
-        };
-        assign(&geometry, [Some(&barrier(a)), Some(&barrier(b))], travel)
+        assign(&rig(), [Some(&barrier(a)), Some(&barrier(b))], travel)
     }
 
     #[test]
@@ -479,28 +406,32 @@ mod tests {
         assert!(cut.taken.is_some_and(|taken| (taken - 8.1).abs() < CYCLE_S) && cut.ahead == 0.0);
     }
 
+    /// The first part stays in barrier B, which the belt leaves behind; those after it never leave it.
     #[test]
-    fn a_part_is_where_all_its_edges_are_likeliest() {
-        let track = barrier(&[(1.01, 1.61)]);
-        let edge = |at: f64, to: f64| PredictedEdge {
-            at,
-            index: (at / CYCLE_S).ceil() as usize,
-            to,
-            part: Some(crate::gap::Passing { part: 0, speed: 0.5, astray: 0.0 }),
+    fn parts_are_missed_at_a_barrier_that_stays_cut_and_only_there() {
+        let mut stuck = barrier(&[(3.81, 4.41)]);
+        stuck.edges.pop();
+        let a = barrier(&[(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)]);
+        let (script, _) = assign(&rig(), [Some(&a), Some(&stuck)], &|at| 0.5 * at);
+        let at_b: Vec<(usize, f64)> =
+            script.cuts.iter().filter(|cut| cut.beam == 1).map(|cut| (cut.part, cut.length)).collect();
+        assert_eq!(at_b, [(0, 0.3), (1, 0.3), (2, 0.3)]);
+        assert!(script.cuts.iter().all(|cut| cut.taken.is_none()), "{:?}", script.cuts);
+        // One that never came there may have been taken away.
+        let (script, _) = of_rig(&[(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)], &[]);
+        assert!(script.cuts.iter().all(|cut| cut.beam == 0));
+    }
+
+    #[test]
+    fn how_long_a_part_is_says_the_bay_that_alone_can_have_put_it() {
+        // It cuts both beams for 0.26 m: nearer to another part of the plant.
+        let (a, b) = (barrier(&[(1.01, 1.53)]), barrier(&[(3.81, 4.33)]));
+        let lengths = |fed: Option<(usize, f64)>| -> Vec<f64> {
+            let geometry = Geometry { lengths: vec![0.24, 0.3], fed, ..rig() };
+            let (script, _) = assign(&geometry, [Some(&a), Some(&b)], &|at| 0.5 * at);
+            script.cuts.iter().map(|cut| cut.length).collect()
         };
-        // Both edges 45 ms early: the part was 22.5 mm further back than its first edge said, or a little beside.
-        let edges = [edge(0.965, 1.0), edge(1.565, 0.0)];
-        let parts: Vec<PartEdge<'_>> = track
-            .edges
-            .iter()
-            .zip(edges)
-            .map(|(seen, predicted)| PartEdge { track: &track, sigma: 3e-4, index: seen.index, predicted })
-            .collect();
-        let (_, shift) = likeliest_shift(&parts);
-        assert!((-0.0275..=-0.0175).contains(&shift), "{shift}");
-        assert!(parts.iter().all(|part| {
-            let predicted = PredictedEdge { at: shifted(&part.predicted, shift), ..part.predicted };
-            interval_cost(&track, part.index, &predicted, 3e-4) < 0.1
-        }));
+        assert_eq!(lengths(None), [0.24, 0.24]);
+        assert_eq!(lengths(Some((0, 0.3))), [0.3, 0.3]);
     }
 }

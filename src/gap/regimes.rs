@@ -111,7 +111,7 @@ struct Course {
 impl Course {
     fn of(subject: &Subject, nominal: &Prediction, run: usize) -> Course {
         let level = |place: usize, wanted: [Quantity; 2]| {
-            let quantities = subject.kind.ports[subject.signals[place].port].quantities;
+            let quantities = subject.signals[place].descriptor.quantities;
             let is_wanted = quantities.iter().any(|quantity| wanted.contains(quantity));
             let track = subject.runs[run].tracks[place].as_ref().filter(|_| is_wanted)?;
             let Predicted::Level(values) = &nominal.runs[run][place] else { return None };

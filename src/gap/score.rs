@@ -5,9 +5,9 @@ use serde::Serialize;
 use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::filter::MOST_FILTER_S;
-use super::parts::shifted;
 use super::prediction::PredictedEdge;
 use super::samples::{Sample, Samples};
+use super::shifts::shifted;
 use super::tolerance::Weighed;
 use super::track::Track;
 

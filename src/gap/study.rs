@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::bay::Bay;
 use super::cause::Bare;
 use super::clocks::{self, ClockOffset};
 use super::filter;
@@ -58,7 +59,7 @@ impl Study {
     /// # Errors
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
-        Ok(Study::aligned(plant, recordings, &[])?.within_tolerances(recordings))
+        Ok(Study::aligned(plant, recordings, &[])?.within_tolerances(recordings).with_bays(None)?)
     }
 
     /// The same with nominal parameters as they are declared. `known` are tasks of the machine, each with the cycle of the
@@ -114,7 +115,11 @@ impl Study {
         let sizes = surroundings::part_sizes(plant);
         let layout = Layout::new(plant, &subjects)?;
         let beside = layout.beside(&subjects, &|_| true)?;
-        subjects.par_iter_mut().zip(&beside).try_for_each(|(subject, beside)| subject.surround(&sizes, beside))?;
+        subjects.par_iter_mut().zip(&beside).try_for_each(|(subject, beside)| {
+            let fed = beside.first().and_then(|beside| beside.fed);
+            subject.bay = fed.and_then(|fed| Bay::of(plant, &fed));
+            subject.surround(&sizes, beside)
+        })?;
         (0..recordings.len()).for_each(|run| neighbours::tell(plant, &mut subjects, &[], run));
         let mut nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
         doubt_those_with_gaps(&layout, &mut subjects, &mut nominal, &sizes)?;
@@ -155,7 +160,7 @@ impl Study {
         for (subject, bare) in study.subjects.iter_mut().zip(&study.bare) {
             subject.find_floors_again(&bare.prediction);
         }
-        Ok(study)
+        Ok(study.with_bays(Some(trained))?)
     }
 
     /// The subject called so.

@@ -1,31 +1,34 @@
 //! One device alone: driven by the recorded commands and by what its neighbours reported, it predicts its own reports.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
+use super::bay::Bay;
 use super::beginning;
 use super::cost::residual;
 use super::floor::{Floor, step_of};
 use super::grid::median;
 use super::layout::Beside;
 use super::overrides::Overrides;
-use super::parts::{Barrier, likeliest_shifts, relengthed};
 use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::restarts::Restarts;
 use super::samples::Samples;
+use super::schedule::Course;
 use super::score::{Score, SignalScore};
+use super::shifts::{Barrier, likeliest_shifts, relengthed};
 use super::study::Grids;
 use super::surroundings::{self, Sizes};
 use super::task::{Task, Ways};
 use super::tolerance::rests;
 use super::track::Track;
-use super::world::Script;
+use super::world::{Script, is_one_length};
 use crate::device::Device;
 use crate::effect::{self, CARRIES_PARTS, EffectError, SHARES_A_SUPPLY};
 use crate::plant::{EffectSpec, ParameterValue, Parameters, Plant};
-use crate::prototype::kind::{KindDescriptor, PortType};
+use crate::prototype::kind::{KindDescriptor, PortDescriptor, PortType};
 use crate::signal_map::{Direction, Kind, RegisterId};
 use crate::trace::Commands;
 
@@ -42,8 +45,9 @@ pub struct SignalInfo {
     /// As in the trace: `Axis.position`.
     pub name: String,
     pub register: RegisterId,
-    /// The port of the device's kind.
+    /// The port of the device's kind, and its description.
     pub port: usize,
+    pub descriptor: &'static PortDescriptor,
     /// As the device's kind calls it: `position`. What an effect's component names.
     pub property: String,
     pub kind: Kind,
@@ -92,6 +96,8 @@ pub struct Run {
     pub(super) timing_s: Option<f64>,
     /// Parameters of the device that were set up otherwise than the model has them while this was recorded, SI.
     pub settings: BTreeMap<String, f64>,
+    /// Of a bay: what its parts meet.
+    pub(super) course: Option<Arc<Course>>,
     /// Where the device is taken up again; `None`: it is replayed in one go from rest.
     pub(super) restarts: Option<Arc<Restarts>>,
 }
@@ -100,6 +106,11 @@ impl Run {
     /// The tick at which the machine took this device's commands up, s; 0: at once.
     pub fn command_tick(&self) -> f64 {
         self.task.every_s
+    }
+
+    /// How long the parts may be that pass, m, those that should be `declared` being as long as they were made.
+    fn with_length(&self, declared: f64, made: f64) -> Vec<f64> {
+        self.part_lengths.iter().map(|length| if is_one_length(*length, declared) { made } else { *length }).collect()
     }
 }
 
@@ -128,10 +139,12 @@ pub struct Subject {
     pub signals: Vec<SignalInfo>,
     /// One for each recording.
     pub runs: Vec<Run>,
+    /// Of a belt: the one bay that feeds it, whose parts lie along it.
+    pub(super) bay: Option<Bay>,
     /// The instance's name, from which all that is random about the device follows.
-    instance: String,
+    pub(super) instance: String,
     /// The ports that have a signal and take commands.
-    commanded: Vec<usize>,
+    pub(super) commanded: Vec<usize>,
 }
 
 impl Subject {
@@ -163,6 +176,7 @@ impl Subject {
                 task: Task::default(),
                 timing_s: None,
                 settings: recording.settings.get(&id).cloned().unwrap_or_default(),
+                course: None,
                 restarts: None,
             }
         });
@@ -174,6 +188,7 @@ impl Subject {
             effects: effect::of_task(&instance.effects, &task.name, &tasks),
             runs: runs.collect(),
             signals,
+            bay: None,
             instance: instance.name.clone(),
             commanded: commanded.into_iter().map(|(port, _)| port).collect(),
         }
@@ -188,15 +203,26 @@ impl Subject {
         let device = self.device(effects, overrides)?;
         let asks = |spec: &EffectSpec| [SHARES_A_SUPPLY, CARRIES_PARTS].contains(&spec.kind.as_str());
         let asks_neighbours = self.effects.iter().chain(effects).any(asks);
+        let made = self.bay.as_ref().map(|bay| Ok::<_, EffectError>((bay, bay.length(effects)?))).transpose()?;
+        let made = made.filter(|(bay, made)| !is_one_length(bay.declared, *made));
         let run = |run: &Run| -> Result<Vec<Predicted>, EffectError> {
             let set_up = match run.settings.is_empty() {
                 true => None,
                 false => Some(self.set_up(&run.settings, effects, overrides)?),
             };
             let device = set_up.as_ref().unwrap_or(&device);
+            if let (Some(course), [track]) = (&run.course, run.tracks.as_slice()) {
+                let rises = |track: &Track| course.rises(device.boxed(), track);
+                return Ok(vec![track.as_ref().map_or(Predicted::Nothing, rises)]);
+            }
             let watch = |(info, track)| self.watch(info, track, run);
             let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
             let script = if asks_neighbours { &run.among_neighbours } else { &run.script };
+            let longer = made.map(|(bay, made)| script.with_parts_of(bay.declared, made, bay.at));
+            let (script, part_lengths) = match (&longer, made) {
+                (Some(longer), Some((bay, made))) => (longer, Cow::Owned(run.with_length(bay.declared, made))),
+                _ => (script, Cow::Borrowed(&run.part_lengths)),
+            };
             let replay = |script: &Arc<Script>| {
                 let mut predicted =
                     alone::run(Alone::new(device.boxed(), self.kind.ports.len(), script), run, &watches);
@@ -209,7 +235,7 @@ impl Subject {
                 predicted
             };
             let mut predicted = replay(script);
-            if let Some(other) = relengthed(script, &run.part_lengths, &self.barriers(run, &predicted)) {
+            if let Some(other) = relengthed(script, &part_lengths, &self.barriers(run, &predicted)) {
                 predicted = replay(&Arc::new(other));
             }
             self.count_on(run, &mut predicted);
@@ -317,7 +343,7 @@ impl Subject {
         residuals
     }
 
-    /// How much further each part of a run was than its first edge said, m: see [`super::parts`].
+    /// How much further each part of a run was than its first edge said, m: see [`super::shifts`].
     fn shifts(&self, run: &Run, predicted: &[Predicted]) -> Vec<f64> {
         likeliest_shifts(&self.barriers(run, predicted))
     }
@@ -371,7 +397,8 @@ impl Subject {
 
     /// The device as the model has it, with `effects` beside its own.
     pub(super) fn device(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Box<dyn Device>, EffectError> {
-        let own = self.effects.iter().chain(effects).cloned();
+        let is_own = |spec: &&EffectSpec| self.bay.is_none() || !Bay::is_of(&spec.kind);
+        let own = self.effects.iter().chain(effects.iter().filter(is_own)).cloned();
         let all: Vec<EffectSpec> = own.chain(overrides.effects()).collect();
         let mut device = effect::build(self.kind, &self.parameters, &self.instance, &all, 0)?;
         device.count_finely();
@@ -395,6 +422,23 @@ impl Subject {
         let signals = &self.signals;
         let runs = self.runs.iter_mut().zip(&nominal.runs);
         runs.for_each(|(run, predicted)| beginning::await_agreement(signals, run, predicted));
+    }
+
+    /// Whether it is a bay, which reports nothing itself: see [`super::schedule`].
+    pub(super) fn is_bay(&self) -> bool {
+        self.runs.iter().any(|run| run.course.is_some())
+    }
+
+    /// The bay whose effect one is, by the effect's id, that this device shows and does not have.
+    pub(super) fn maker(&self, effect: &str) -> Option<&str> {
+        self.bay.as_ref().filter(|_| Bay::is_of(effect)).map(|bay| bay.name.as_str())
+    }
+
+    /// Whether an effect fits the device, or the bay that feeds it.
+    pub(super) fn takes(&self, effect: &EffectSpec) -> bool {
+        let effects = std::slice::from_ref(effect);
+        let bay_takes = self.bay.as_ref().is_none_or(|bay| bay.length(effects).is_ok());
+        bay_takes && self.device(effects, &Overrides::none()).is_ok()
     }
 
     /// The same device in one of its runs.
@@ -482,12 +526,12 @@ impl Subject {
 
     /// Whether a signal is a contact, which comes through the filter of an input; a word does not.
     pub(super) fn is_filtered(&self, info: &SignalInfo) -> bool {
-        self.kind.ports[info.port].ty == PortType::Boolean
+        info.descriptor.ty == PortType::Boolean
     }
 
     /// How far behind its instant a signal is looked at, s. A drive's force is that of the tick that follows: in its middle; what
     /// is old or filtered is of an instant before.
-    fn lead(&self, info: &SignalInfo, run: &Run) -> f64 {
+    pub(super) fn lead(&self, info: &SignalInfo, run: &Run) -> f64 {
         let is_force = self.kind.name == "kinetwin.ServoAxis" && info.property == "force";
         let ahead = if is_force { 0.5 * run.sample_tick } else { 0.0 };
         let filter = if self.is_filtered(info) { run.task.filter_s } else { 0.0 };
@@ -533,6 +577,7 @@ fn signals_of(plant: &Plant, id: TaskId) -> Vec<SignalInfo> {
             name: signal.name.clone(),
             register,
             port,
+            descriptor,
             property: descriptor.name.to_owned(),
             kind: signal.kind,
             unit: crate::prototype::quantity::si_unit(signal.unit.quantity).to_string(),
@@ -569,7 +614,7 @@ fn commands_of(
         let port = *port;
         let told = recording.values(*register);
         let is_level = plant.signal_map.signal(*register).kind == Kind::Level;
-        let like = |info: &SignalInfo| kind.ports[info.port].quantities == kind.ports[port].quantities;
+        let like = |info: &SignalInfo| info.descriptor.quantities == kind.ports[port].quantities;
         let alike = signals.iter().zip(tracks).filter(|(info, _)| like(info)).filter_map(|(_, track)| track.as_ref());
         let finest = alike.map(|track| step_of(&track.values)).fold(f64::INFINITY, f64::min);
         let told = if is_level && is_sampled(recording) { on_lines(told, finest) } else { told.to_vec() };

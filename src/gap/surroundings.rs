@@ -60,6 +60,7 @@ pub(super) fn surround(
                 lengths: lengths(&belt.surface, &sizes.each),
                 tolerance: tolerance(&belt.surface, sizes),
                 lane: beside.lane.clone(),
+                fed: beside.fed_alone(&belt.barriers),
                 hands: beside.hands.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
@@ -141,7 +142,7 @@ fn of_belt(
         off(way).zip(off(&nominal)).is_some_and(|(reported, law)| law > OFF_M && reported < MUCH_LESS * law)
     };
     let way = reported.filter(is_better).unwrap_or(&nominal);
-    let (script, origins) = parts::assign(geometry, tracks, &|at| way.at(at));
+    let (script, origins) = likeliest_reading(geometry, tracks, &|at| way.at(at));
     let script = Script { beams: geometry.beams, ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
@@ -150,6 +151,34 @@ fn of_belt(
         }
     }
     script
+}
+
+/// How many parts of a known length a barrier must show when it is read the other way round, and how many times more than as it is.
+const ENOUGH: usize = 3;
+const FAR_MORE: usize = 2;
+
+/// The parts on a belt as its barriers show them; where one shows next to nothing that is as long as a part, and the gaps between are,
+/// its signal is inverted: then what it stands for is told, so that the signal is off and not the parts.
+fn likeliest_reading(
+    geometry: &Geometry,
+    tracks: [Option<&Track>; 2],
+    travel: &dyn Fn(f64) -> f64,
+) -> (Script, [Vec<Origin>; 2]) {
+    let fitting = |read: &(Script, [Vec<Origin>; 2]), beam: usize| {
+        read.0.cuts.iter().filter(|cut| cut.beam == beam && cut.length.is_finite()).count()
+    };
+    let mut best = parts::assign(geometry, tracks, travel);
+    for beam in [0, 1] {
+        let plainly = fitting(&best, beam);
+        let Some(inverted) = tracks[beam].map(Track::inverted) else { continue };
+        let mut read = tracks;
+        read[beam] = Some(&inverted);
+        let other = parts::assign(geometry, read, travel);
+        if fitting(&other, beam) >= ENOUGH.max(FAR_MORE * plainly + 1) {
+            best = other;
+        }
+    }
+    best
 }
 
 /// Parts that a bay has put and no barrier has seen yet are on the belt all the same; they are told beside what is played back as it was
@@ -235,17 +264,60 @@ fn of_gripper(kind: &KindDescriptor, parameters: &Parameters, signals: &[SignalI
 mod tests {
     use super::*;
     use crate::gap::world::Cut;
+    use crate::gap::{Edge, Grid, TaskId};
+
+    #[test]
+    fn an_inverted_barrier_is_read_the_other_way_round() {
+        let track = |cuts: &[(f64, f64)]| {
+            let edge = |at: f64, to: f64| Edge { index: (at / 0.02).ceil() as usize, to };
+            Track {
+                grid: Arc::new(Grid::of_steps(0.02, 60.0)),
+                first: 0,
+                values: Vec::new(),
+                initial: 0.0,
+                edges: cuts.iter().flat_map(|(from, to)| [edge(*from, 1.0), edge(*to, 0.0)]).collect(),
+                origins: Vec::new(),
+                tolerance: 0.0,
+                blind: Vec::new(),
+            }
+        };
+        let geometry = Geometry {
+            beams: [Some(0.3), Some(1.7)],
+            lengths: vec![0.3],
+            tolerance: 0.0,
+            lane: Arc::default(),
+            fed: None,
+            hands: Default::default(),
+        };
+        let came = |start: f64| [0.0, 6.0, 12.0, 18.0].map(|at| (start + at, start + at + 0.6));
+        let (a, b) = (track(&came(1.01)), track(&came(3.81)));
+        let plain = likeliest_reading(&geometry, [Some(&a), Some(&b)], &|at| 0.5 * at);
+        let other = likeliest_reading(&geometry, [Some(&a.inverted()), Some(&b)], &|at| 0.5 * at);
+        assert_eq!(plain.0.cuts.len(), 8);
+        assert_eq!(plain.0.cuts, other.0.cuts);
+    }
 
     /// A part that a bay put at 0.2 m and the first beam, at 0.7 m, saw at 2 s, the belt at 0.5 m/s; a box that stood in the other
     /// beam until 1.5 s is played back all the same.
     #[test]
     fn parts_on_their_way_weigh_beside_what_is_played_back() {
+        let bay = TaskId { instance: 0, task: 0 };
         let instants: Vec<f64> = (0..400).map(|k| 0.01 * f64::from(k)).collect();
         let way = Way { metres: instants.iter().map(|at| 0.5 * at).collect(), instants };
-        let cut = Cut { part: 0, beam: 0, from: 2.0, ahead: 0.0, front: 0.7, way: 1.0, length: 0.3, taken: None };
+        let cut = Cut {
+            part: 0,
+            beam: 0,
+            from: 2.0,
+            ahead: 0.0,
+            front: 0.7,
+            way: 1.0,
+            length: 0.3,
+            is_known: false,
+            taken: None,
+        };
         let beam = |at: f64, is_on: bool| Told { at, what: Surrounding::BarrierB, is_on };
         let script = Script { cuts: vec![cut], told: vec![beam(0.0, true), beam(1.5, false)], ..Script::default() };
-        let told = fed_by(&Fed { at: 0.2, length: 0.3 }, &way, script).told;
+        let told = fed_by(&Fed { bay, at: 0.2, length: 0.3, is_along: true }, &way, script).told;
         assert_eq!(told.len(), 4, "{told:?}");
         assert_eq!((told[0], told[2]), (beam(0.0, true), beam(1.5, false)));
         assert!(told[1].what == Surrounding::Held(1) && (told[1].at - 1.3).abs() < 0.02, "{told:?}");

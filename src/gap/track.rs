@@ -138,6 +138,14 @@ impl Track {
         track
     }
 
+    /// A state that is on where this one is off.
+    pub(super) fn inverted(&self) -> Track {
+        let mut track = self.clone();
+        track.initial = 1.0 - track.initial;
+        track.edges.iter_mut().for_each(|edge| edge.to = 1.0 - edge.to);
+        track
+    }
+
     /// Whether an instant of the grid is no evidence.
     pub fn is_blind(&self, index: usize) -> bool {
         self.blind.iter().any(|(from, to)| (*from..=*to).contains(&index))

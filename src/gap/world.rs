@@ -24,6 +24,27 @@ pub struct Script {
     pub beams: [Option<f64>; 2],
 }
 
+/// Whether two lengths of parts are one.
+pub(super) fn is_one_length(one: f64, other: f64) -> bool {
+    const SAME_M: f64 = 1e-6;
+    (one - other).abs() < SAME_M
+}
+
+impl Script {
+    /// The same with the parts of one length, m, being of another, and those that a bay put with their middles `at`, m from the
+    /// belt's start. What it puts into the beam is seen at once, its front being past it.
+    pub(super) fn with_parts_of(&self, declared: f64, made: f64, at: f64) -> Arc<Script> {
+        let mut other = self.clone();
+        for cut in other.cuts.iter_mut().filter(|cut| is_one_length(cut.length, declared)) {
+            cut.length = made;
+            let past = if cut.is_known { (at + 0.5 * made - cut.front).max(0.0) } else { 0.0 };
+            cut.front += past;
+            cut.ahead -= past;
+        }
+        Arc::new(other)
+    }
+}
+
 /// A beam or a seal is told to be so from now on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Told {
@@ -61,6 +82,8 @@ pub struct Cut {
     pub way: f64,
     /// How long it is along the belt, m; infinite where that is not known.
     pub length: f64,
+    /// Whether that is told by the bay that put it, and no choice among the plant's parts.
+    pub is_known: bool,
     /// When it leaves the beam by other hands than the belt's, s; nothing if the belt carries it out.
     pub taken: Option<f64>,
 }
@@ -327,6 +350,28 @@ fn put_on(riders: &mut Vec<Rider>, cut: &Cut) {
 mod tests {
     use super::*;
 
+    /// A part that a bay put at 0.15 m with its front at the beam at 0.3 m: 40 mm longer it is 20 mm past it, and reaches the next so much
+    /// sooner; 40 mm shorter it is seen when its front comes there.
+    #[test]
+    fn what_a_bay_puts_into_a_beam_is_past_it() {
+        let cut = Cut {
+            part: 0,
+            beam: 1,
+            from: 1.0,
+            ahead: 1.4,
+            front: 0.3,
+            way: 1.0,
+            length: 0.3,
+            is_known: true,
+            taken: None,
+        };
+        let script = Script { cuts: vec![cut, Cut { length: 0.2, ..cut }], ..Script::default() };
+        let longer = script.with_parts_of(0.3, 0.34, 0.15).cuts[0];
+        assert!((longer.front - 0.32).abs() < 1e-12 && (longer.ahead - 1.38).abs() < 1e-12, "{longer:?}");
+        let other = script.with_parts_of(0.3, 0.26, 0.15);
+        assert_eq!(other.cuts, [Cut { length: 0.26, ..cut }, Cut { length: 0.2, ..cut }]);
+    }
+
     /// A beam 10 mm further on is reached 10 mm later, whichever way the belt runs; that by which a part was first seen is where it is.
     #[test]
     fn beams_that_are_further_apart_are_reached_later() {
@@ -338,6 +383,7 @@ mod tests {
             front: 0.0,
             way,
             length: 0.25,
+            is_known: false,
             taken: None,
         };
         for (way, cuts) in [(1.0, [cut(0, 0.0, 1.0), cut(1, 1.4, 1.0)]), (-1.0, [cut(1, 0.0, -1.0), cut(0, 1.4, -1.0)])]

@@ -43,7 +43,7 @@ pub enum PortType {
 }
 
 /// A port of a device kind: where a signal comes in or goes out.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub struct PortDescriptor {
     pub name: &'static str,
     pub direction: Direction,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::candidate::{Candidate, Free};
 use super::scales::Scales;
 use super::starts::{self, Clues};
-use crate::effect::{self, Build, EFFECTS, EffectDescriptor};
+use crate::effect::{Build, EFFECTS, EffectDescriptor};
 use crate::gap::fit::Range;
 use crate::gap::{Predicted, Prediction, Score, SignalScore, Subject, gains_with_motion};
 use crate::plant::{EffectPlace, ParameterValue};
@@ -94,7 +94,7 @@ impl Library<'_> {
 
     fn fits(&self, candidate: &Candidate) -> bool {
         let spec = candidate.spec(&candidate.starts[0]);
-        effect::build(self.subject.kind, &self.subject.parameters, &self.subject.name, &[spec], 0).is_ok()
+        self.subject.takes(&spec)
     }
 
     fn at_places(&self, effect: &'static EffectDescriptor) -> Vec<Candidate> {
@@ -243,6 +243,7 @@ mod tests {
 
     use super::*;
     use crate::device::KINDS;
+    use crate::effect;
     use crate::gap::{Overrides, Recording, Study};
     use crate::plant::{self, embedded::Embedded};
     use crate::trace::Reader;

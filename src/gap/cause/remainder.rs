@@ -193,10 +193,10 @@ fn regressors(bench: &Bench<'_>, prediction: &Prediction, run: usize, signal: us
     let track = subject.runs[run].tracks[signal].as_ref()?;
     let count = track.values.len();
     let instants = &track.grid.instants[track.first..track.first + count];
-    let port = |at: usize| &subject.kind.ports[subject.signals[at].port];
+    let port = |at: usize| subject.signals[at].descriptor;
     let own = port(signal);
     // Of a robot's axis only its own report says anything.
-    let is_alone = subject.signals.iter().filter(|info| is_a(&subject.kind.ports[info.port], POSITIONS)).count() > 1;
+    let is_alone = subject.signals.iter().filter(|info| is_a(info.descriptor, POSITIONS)).count() > 1;
     let level = |wanted: [Quantity; 2]| {
         let of = (0..subject.signals.len()).find(|at| match is_alone {
             true => *at == signal && is_a(own, wanted),

@@ -31,7 +31,7 @@ impl Scales {
             for (signal, info) in subject.signals.iter().enumerate() {
                 let Some(track) = &run.tracks[signal] else { continue };
                 scales.cycle = scales.cycle.max(track.grid.cycle);
-                let port = &subject.kind.ports[info.port];
+                let port = info.descriptor;
                 let Predicted::Level(values) = &predicted[signal] else { continue };
                 if is_meant(port) {
                     let instants = &track.grid.instants[track.first..];

@@ -54,7 +54,7 @@ fn error_along(clues: &Clues<'_>, friction: bool) -> (Vec<f64>, Vec<f64>) {
     let subject = clues.subject;
     let is_a = |signal: usize, wanted: [Quantity; 2]| {
         let info = &subject.signals[signal];
-        let quantities = subject.kind.ports[info.port].quantities;
+        let quantities = info.descriptor.quantities;
         let is_meant = clues.component.is_none_or(|component| info.property.ends_with(component));
         is_meant && !info.is_count && quantities.iter().any(|quantity| wanted.contains(quantity))
     };

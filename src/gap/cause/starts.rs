@@ -11,6 +11,7 @@ use super::scales::Scales;
 use super::{refresh, scan};
 use crate::effect::EffectParameter;
 use crate::gap::fit::Range;
+use crate::gap::schedule::PART_SPACING;
 use crate::gap::statistics::{quantile, span};
 use crate::gap::{Predicted, Prediction, Score, Subject};
 use crate::plant::EffectPlace;
@@ -188,6 +189,10 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
     let unit = scale.unwrap_or_else(|| signal_scale(clues));
     let range = |least: f64, greatest: f64, scale: f64| Range { least, greatest, scale };
     let times = |shares: &[f64], of: f64| shares.iter().map(|share| share * of).collect::<Vec<f64>>();
+    if candidate.effect.id == PART_SPACING {
+        let longest = greatest.min(LONGEST_S);
+        return (range(-longest, longest, 0.02), spacing_starts(clues, longest));
+    }
     if parameter.quantities.contains(&Quantity::Time) {
         let longest = greatest.min(LONGEST_S);
         let mut starts: Vec<f64> = time_starts(clues).into_iter().filter(|time| *time < longest).collect();
@@ -226,6 +231,12 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         }
         // How long vacuum holds: a leak that lets go after any grip's end does nothing.
         ("leak", _) => (range(least, 100.0, 0.1), HOLDS_S.iter().rev().map(|hold| 1.0 / hold).collect()),
+        // As a share of what the bay declares.
+        ("part-length-error", _) => {
+            let unit = clues.subject.bay.as_ref().map_or(unit, |bay| bay.declared);
+            let starts = times(&[0.01, 0.03, 0.1, 0.25, -0.01, -0.03, -0.1, -0.25], unit);
+            (range(least.max(-0.9 * unit), greatest.min(2.0 * unit), 0.01 * unit), starts)
+        }
         ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
         ("clock-drift", _) => (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),
         ("drift", _) => (range(-unit, unit, 1e-3 * unit), times(&[1e-4, -1e-4, 1e-2, -1e-2], unit)),
@@ -269,11 +280,35 @@ fn middle_difference(clues: &Clues<'_>) -> f64 {
     if differences.is_empty() { 0.01 * clues.scales.travel } else { quantile(&differences, 0.5) }
 }
 
+/// How much longer than it should be a bay's interval may be, either way, s: what would bring one of its next parts to where one came, and
+/// from milliseconds up.
+fn spacing_starts(clues: &Clues<'_>, longest: f64) -> Vec<f64> {
+    const LEAST_S: f64 = 3e-3;
+    const FURTHER: f64 = 1.5;
+    const NEXT: std::ops::RangeInclusive<usize> = 1..=3;
+    let mut starts = Vec::new();
+    for (run, predicted) in clues.subject.runs.iter().zip(&clues.nominal.runs) {
+        let (Some(Some(track)), Some(Predicted::Edges { edges, .. })) = (run.tracks.first(), predicted.first()) else {
+            continue;
+        };
+        for edge in edges {
+            let Some(part) = edge.part.map(|passing| passing.part).filter(|part| NEXT.contains(part)) else { continue };
+            let came = track.edges.iter().map(|edge| track.grid.instants[edge.index]);
+            starts.extend(came.map(|at| (at - 0.5 * track.grid.cycle - edge.at) / part as f64));
+        }
+    }
+    starts.retain(|start: &f64| start.abs() < longest);
+    starts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    starts.truncate(MOST / 2);
+    let sizes = std::iter::successors(Some(LEAST_S), |size| Some(FURTHER * size)).take_while(|size| *size < longest);
+    starts.extend(sizes.flat_map(|size| [size, -size]));
+    starts
+}
+
 /// Times from a tenth of a millisecond up, steps of half a cycle where edges are seen in cycles, and how late the edges are.
 fn time_starts(clues: &Clues<'_>) -> Vec<f64> {
     let mut times = vec![3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.06, 0.1, 0.17, 0.3, 0.6];
-    let has_levels =
-        clues.subject.signals.iter().any(|info| clues.subject.kind.ports[info.port].ty != PortType::Boolean);
+    let has_levels = clues.subject.signals.iter().any(|info| info.descriptor.ty != PortType::Boolean);
     if !has_levels {
         let step = (0.5 * clues.scales.cycle).clamp(2e-3, 0.02);
         times.extend((1..=30).map(|k| f64::from(k) * step));

@@ -8,6 +8,7 @@ use crate::gap::cause::{
     climb, intervals, misfit, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
+use crate::gap::schedule::PART_SPACING;
 use crate::gap::{FAR_BEYOND, Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
 
@@ -67,7 +68,28 @@ pub(super) fn find(
     study: &Study,
     options: &Options<'_>,
 ) -> Option<Finding> {
+    if subject.is_bay() {
+        let is_asked = |id: &str| id == PART_SPACING && (options.is_asked)(id);
+        let options = Options { is_asked: &is_asked, ..*options };
+        return conclude(place, (subject, bare), None, study, &options).filter(explains_all);
+    }
     let chance = chance::find(place, study, options.is_asked).map(Arc::new);
+    conclude(place, (subject, bare), chance, study, options)
+}
+
+/// Whether its effects explain all of a gap.
+fn explains_all(finding: &Finding) -> bool {
+    finding.conclusion == Conclusion::Explained
+}
+
+/// The same once it is known whether something was drawn of its signals.
+fn conclude(
+    place: usize,
+    (subject, bare): (&Subject, &Bare),
+    chance: Option<Arc<Chance>>,
+    study: &Study,
+    options: &Options<'_>,
+) -> Option<Finding> {
     let gap = subject.score(&bare.prediction);
     let (subject, bare) = chance.as_ref().map_or((subject, bare), |chance| (&chance.subject, &chance.bare));
     let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);

@@ -5,7 +5,7 @@ use super::shrink::{Squares, shrink};
 use crate::gap::regimes::regimes;
 use crate::gap::report::{DeviceGap, EdgeCounts, Gap, InWindows, Report, SignalGap, SignalKind, Verdict};
 use crate::gap::{Recording, Score, SignalScore, Span, Study, Subject, WINDOW_S};
-use crate::plant::Plant;
+use crate::plant::{EffectSpec, Plant};
 use crate::signal_map::Kind;
 
 /// Recordings divided into what is fitted to and what is held out.
@@ -38,6 +38,15 @@ pub fn kept_back(recordings: &[Recording]) -> Split {
     let train = with(&|ends| KEPT_BACK.iter().map(|at| span(ends, *at, PURGED_S)).collect());
     let others = |ends: f64| (0..SPANS).filter(|at| !KEPT_BACK.contains(at)).map(|at| span(ends, at, 0.0)).collect();
     Split { train, held_out: with(&others) }
+}
+
+/// Whose gap it is: the device's own, or that of the bay that feeds it, where all that was found is the bay's.
+fn device(plant: &Plant, subject: &Subject, finding: &Finding) -> String {
+    let specs = finding.specs();
+    let maker = |spec: &EffectSpec| subject.maker(&spec.kind);
+    let makers: Option<Vec<&str>> = specs.iter().map(maker).collect();
+    let maker = makers.and_then(|makers| makers.first().copied().map(str::to_owned));
+    maker.unwrap_or_else(|| subject.id.instance(plant).name.clone())
 }
 
 /// What the held-out recordings say.
@@ -78,7 +87,7 @@ impl Measured {
             measured.squares.add(subject, &before, after);
             if finding.has_gap() {
                 measured.devices.push(DeviceGap {
-                    device: subject.id.instance(plant).name.clone(),
+                    device: device(plant, subject, finding),
                     share: finding.misfit / all.max(1e-12),
                     signals: signals(plant, subject, (&before, after), windows.as_ref()),
                     regimes: regimes(subject, &nominal, &before),

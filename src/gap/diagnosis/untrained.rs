@@ -111,7 +111,7 @@ impl<'a> Speeds<'a> {
     fn of(subject: &Subject, run: &'a Run, signal: usize, predicted: &Predicted) -> Option<Speeds<'a>> {
         let track = run.tracks[signal].as_ref()?;
         let Predicted::Level(values) = predicted else { return None };
-        let quantities = subject.kind.ports[subject.signals[signal].port].quantities;
+        let quantities = subject.signals[signal].descriptor.quantities;
         let is_a = |wanted: [Quantity; 2]| quantities.iter().any(|quantity| wanted.contains(quantity));
         let is_speed = is_a([Quantity::Velocity, Quantity::AngularVelocity]);
         if !is_speed && !is_a([Quantity::Length, Quantity::Angle]) || values.len() < 2 {

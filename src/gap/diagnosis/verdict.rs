@@ -144,9 +144,10 @@ impl Site<'_> {
     fn member(&self, candidate: &Candidate) -> Member {
         let instance = self.subject.id.instance(self.plant);
         let task = (instance.tasks.len() > 1).then(|| self.subject.id.task(self.plant).name.as_str());
+        let maker = self.subject.maker(candidate.effect.id);
         Member {
-            device: instance.name.clone(),
-            component: component(task, candidate.component.as_deref()),
+            device: maker.unwrap_or(&instance.name).to_owned(),
+            component: component(task.filter(|_| maker.is_none()), candidate.component.as_deref()),
             effect: candidate.effect.id.to_owned(),
             place: candidate.place,
         }
