@@ -65,7 +65,7 @@ pub(in crate::gap) fn find(
         return Ok(None);
     }
     let says = |(subject, bare): (&Subject, &Bare)| -> Result<Option<Says>, EffectError> {
-        let Some(mut voter) = Voter::new(subject.only(run))? else { return Ok(None) };
+        let Some(mut voter) = Voter::new(subject.only(run).of_levels())? else { return Ok(None) };
         voter.begin_at(&bare.overrides)?;
         Says::new(voter)
     };
