@@ -134,7 +134,7 @@ impl Course {
         let at = at + self.late;
         let index = track.grid.instants.partition_point(|instant| *instant < at);
         let is_seen = index > track.first && index < track.grid.instants.len();
-        is_seen.then(|| PredictedEdge { at, index, to: 1.0, part: Some(Passing { part, speed, astray: 0.0 }) })
+        is_seen.then_some(PredictedEdge { at, index, to: 1.0, part: Some(Passing { part, speed, astray: 0.0 }) })
     }
 }
 
