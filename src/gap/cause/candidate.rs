@@ -64,12 +64,6 @@ impl Candidate {
         self.free.len() + usize::from(self.effect.id == "stuck" && self.free.is_empty())
     }
 
-    /// Whether it sets in above an acceleration alone. Of a drive that slips above 1.986 m/s² its highest acceleration is found a little too
-    /// low, which is the best that can be had without the slip; and with the drive that slow nothing slips. Only with both free it shows.
-    pub fn hides_in_a_limit(&self) -> bool {
-        ["belt-slip-above-acceleration", "part-slip"].contains(&self.effect.id)
-    }
-
     /// The ranges of its free parameters.
     pub fn ranges(&self) -> impl Iterator<Item = Range> {
         self.free.iter().map(|free| free.range)

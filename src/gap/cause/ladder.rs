@@ -264,13 +264,8 @@ fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial
     let mut first: Vec<&Trial> = order.into_iter().take(3).collect();
     // Weighed by what no effect leaves, one that leaves nothing may seem not to be worth its parameters.
     let Some(closest) = rivals.iter().min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return Vec::new() };
-    // What moves nothing with the others as they are has nothing to say.
-    let hides = |trial: &&Trial| trial.cost != below.cost && trial.set.last().is_some_and(Candidate::hides_in_a_limit);
-    let hidden = rivals.iter().find(|trial| below.set.is_empty() && hides(trial));
-    for trial in [Some(closest), hidden].into_iter().flatten() {
-        if !first.iter().any(|other| std::ptr::eq(*other, trial)) {
-            first.push(trial);
-        }
+    if !first.iter().any(|trial| std::ptr::eq(*trial, closest)) {
+        first.push(closest);
     }
     let settled: Vec<(Trial, Subject)> =
         first.par_iter().filter_map(|trial| settle(bench, weighed, trial, below.set.is_empty())).collect();

@@ -66,7 +66,7 @@ pub fn rung(
     let most = glances.iter().map(|glance| glance.promise).fold(0.0, f64::max);
     let is_worth_a_fit = |glance: &Glance| {
         let share = BESIDE_THE_BEST[usize::from(glance.candidate.free.len() > 1)];
-        glance.is_promising && (glance.promise >= share * most || glance.candidate.hides_in_a_limit())
+        glance.is_promising && glance.promise >= share * most
     };
     let fitted = glances.into_par_iter().with_max_len(1).filter_map(|glance| match is_worth_a_fit(&glance) {
         true => {
@@ -84,10 +84,7 @@ pub fn rung(
     let fitted: Vec<Glance> = fitted.collect();
     let most = fitted.iter().map(|glance| glance.gain).fold(0.0, f64::max);
     // Where slopes lead nowhere, what a few steps downhill gain says little.
-    let is_near = |glance: &Glance| {
-        let asks = bench.is_rugged() || glance.candidate.hides_in_a_limit() || glance.gain > NEAR_THE_BEST * most;
-        glance.is_promising && asks
-    };
+    let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
     let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| match is_near(&glance) {
         true => looks.fit_closely(&glance),
         false if glance.candidate.free.is_empty() => looks.trial_at(&glance, &[]),
