@@ -37,6 +37,7 @@ mod floor;
 mod grid;
 mod lane;
 mod layout;
+mod link;
 mod locate;
 mod looks;
 mod mask;

@@ -206,7 +206,7 @@ impl SignalScore {
         sigma: f64,
     ) -> Self {
         let mut pairs = pair(track, predicted, sigma);
-        leave_out_pulses(&mut pairs, predicted);
+        leave_out_pulses(&mut pairs, predicted, track, sigma);
         let kept = pairs.iter().map(|pair| edge(track, predicted, shifts, pair, sigma));
         let edges: Vec<EdgeScore> = kept.flatten().collect();
         let errors: Vec<f64> =
@@ -233,13 +233,25 @@ impl SignalScore {
     }
 }
 
-/// Leaves out predicted pulses that nobody recorded and that an input's filter may hide.
-fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge]) {
+/// Within how many standard deviations of where it is predicted an edge comes.
+const SURELY: f64 = 5.0;
+
+/// Leaves out predicted pulses that nobody recorded: such as an input's filter may hide, and such as one report alone would have shown that
+/// may have been made before the pulse or after it.
+fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge], track: &Track, sigma: f64) {
     let alone = |pair: &Pair| pair.predicted.filter(|_| pair.recorded.is_none());
+    let off = |edge: &PredictedEdge| SURELY * uncertainty(track, edge, sigma);
+    let is_missed = |on: &PredictedEdge, and_off: &PredictedEdge| {
+        let shown = track.grid.instants.get(on.index);
+        and_off.index == on.index + 1 && shown.is_some_and(|at| at - on.at < off(on) || and_off.at - at < off(and_off))
+    };
     let mut at = 0;
     while at + 1 < pairs.len() {
-        let both = alone(&pairs[at]).zip(alone(&pairs[at + 1]));
-        if both.is_some_and(|(on, off)| off == on + 1 && predicted[off].at - predicted[on].at < MOST_FILTER_S) {
+        let both = alone(&pairs[at]).zip(alone(&pairs[at + 1])).filter(|(on, off)| *off == on + 1);
+        let is_hidden = |(on, off): (usize, usize)| {
+            predicted[off].at - predicted[on].at < MOST_FILTER_S || is_missed(&predicted[on], &predicted[off])
+        };
+        if both.is_some_and(is_hidden) {
             pairs.drain(at..at + 2);
         } else {
             at += 1;
@@ -304,13 +316,40 @@ fn edge_floor(cycle: f64, sigma: f64, at: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
+    fn alone(at: usize) -> Pair {
+        Pair { recorded: None, predicted: Some(at) }
+    }
+
+    /// What is left of predicted pulses, on and off in turn, that nobody recorded in a cycle of 50 ms; a sensor is off by 10 µs.
+    fn left_of(edges: &[f64]) -> Vec<usize> {
+        let grid = std::sync::Arc::new(crate::gap::Grid::of_steps(0.05, 60.0));
+        let track = Track {
+            grid,
+            first: 0,
+            values: Vec::new(),
+            initial: 0.0,
+            edges: Vec::new(),
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind: Vec::new(),
+        };
+        let index = |at: f64| track.grid.instants.partition_point(|instant| *instant < at);
+        let to = |place: usize| f64::from(u8::from(place.is_multiple_of(2)));
+        let edge = |(place, at): (usize, &f64)| PredictedEdge { at: *at, to: to(place), index: index(*at), part: None };
+        let predicted: Vec<PredictedEdge> = edges.iter().enumerate().map(edge).collect();
+        let mut pairs: Vec<Pair> = (0..edges.len()).map(alone).collect();
+        leave_out_pulses(&mut pairs, &predicted, &track, 1e-5);
+        pairs.iter().filter_map(|pair| pair.predicted).collect()
+    }
+
     #[test]
     fn a_pulse_that_a_filter_hides_is_no_difference() {
-        let edge = |at: f64, to: f64| PredictedEdge { at, to, index: 0, part: None };
-        let predicted = [edge(1.0, 1.0), edge(1.003, 0.0), edge(2.0, 1.0), edge(2.5, 0.0)];
-        let alone = |at: usize| Pair { recorded: None, predicted: Some(at) };
-        let mut pairs: Vec<Pair> = (0..4).map(alone).collect();
-        leave_out_pulses(&mut pairs, &predicted);
-        assert_eq!(pairs, [alone(2), alone(3)]);
+        assert_eq!(left_of(&[1.0, 1.003, 2.01, 2.5]), [2, 3]);
+    }
+
+    /// Shown by one report, 30 µs after it came or before it went, or by one that would not miss it; and by two.
+    #[test]
+    fn a_pulse_that_one_report_may_miss_is_no_difference() {
+        assert_eq!(left_of(&[0.99997, 1.04, 1.96, 2.00003, 2.97, 3.03, 3.96, 4.07]), [4, 5, 6, 7]);
     }
 }

@@ -11,6 +11,7 @@ use super::cost::residual;
 use super::floor::{Floor, step_of};
 use super::grid::median;
 use super::layout::Beside;
+use super::link;
 use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
@@ -211,6 +212,8 @@ impl Subject {
                 false => Some(self.set_up(&run.settings, effects, overrides)?),
             };
             let device = set_up.as_ref().unwrap_or(&device);
+            let held_up = link::before_the_task(run, self.kind, self.effects.iter().chain(effects));
+            let run = held_up.as_ref().unwrap_or(run);
             if let (Some(course), [track]) = (&run.course, run.tracks.as_slice()) {
                 let rises = |track: &Track| course.rises(device.boxed(), track);
                 return Ok(vec![track.as_ref().map_or(Predicted::Nothing, rises)]);
@@ -218,6 +221,10 @@ impl Subject {
             let watch = |(info, track)| self.watch(info, track, run);
             let watches: Vec<Watch<'_>> = self.signals.iter().zip(&run.tracks).map(watch).collect();
             let script = if asks_neighbours { &run.among_neighbours } else { &run.script };
+            let barriers = [0, 1].map(|beam| self.signals.iter().find(|info| beam_of(info) == Some(beam)));
+            let barriers = barriers.map(|barrier| barrier.map(|info| info.property.as_str()));
+            let sooner = link::before_the_report(script, barriers, self.effects.iter().chain(effects));
+            let script = sooner.as_ref().unwrap_or(script);
             let longer = made.map(|(bay, made)| script.with_parts_of(bay.declared, made, bay.at));
             let (script, part_lengths) = match (&longer, made) {
                 (Some(longer), Some((bay, made))) => (longer, Cow::Owned(run.with_length(bay.declared, made))),

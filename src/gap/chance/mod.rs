@@ -4,14 +4,18 @@
 //! recording: of a loose contact every sample is as predicted or 0, of lost reports it is as predicted or what was last reported.
 //! What was drawn is read off the recording sample by sample, taken out of it, and what is left is looked at as ever: with nothing
 //! left, the effect is the answer; else it stands beside what explains the rest. A sensor that scatters takes nothing out: its
-//! noise is in the floor already, and stands out of that of all others.
+//! noise is in the floor already, and stands out of that of all others. A sensor that reads in steps draws nothing, but no slope leads to
+//! them either: they are read off in the same way, and the floor is theirs then.
 
+mod late;
 mod read;
 mod scatter;
+mod steps;
 
-use super::cause::{Bare, Bounds, Candidate, Free};
+use super::cause::{Bare, Bounds, Candidate, Free, misfit};
 use super::evidence;
 use super::fit::Range;
+use super::floor::Floor;
 use super::locate::THRESHOLD;
 use super::overrides::Overrides;
 use super::prediction::Prediction;
@@ -19,7 +23,9 @@ use super::study::Study;
 use super::subject::{Subject, Timing};
 use crate::effect::EFFECTS;
 use crate::plant::EffectPlace;
+use late::Late;
 use read::{Law, Reading};
+use steps::Steps;
 
 /// An effect that draws, found in the training.
 #[derive(Clone, Debug)]
@@ -32,19 +38,56 @@ pub struct Chance {
     pub bare: Bare,
     /// By how many floors squared the device is off by it, over all samples.
     pub misfit: f64,
-    law: Option<Law>,
+    drawn: Drawn,
     signals: Vec<usize>,
 }
 
+/// What is taken out of a recording.
+#[derive(Clone, Copy, Debug)]
+enum Drawn {
+    /// What a law drew.
+    By(Law),
+    /// What a report adds to the steps of its sensor.
+    In(Steps),
+    /// What commands came late by.
+    Late,
+    /// Nothing.
+    Noise,
+}
+
 impl Chance {
+    /// Another recording of the device as it would be judged without the effect.
+    pub fn judged_without(&self, subject: &Subject) -> Option<Subject> {
+        let Drawn::In(steps) = self.drawn else { return None };
+        let mut other = subject.clone();
+        for run in &mut other.runs {
+            self.signals.iter().for_each(|signal| run.floors[*signal] = steps.without(run.floors[*signal]));
+        }
+        Some(other)
+    }
+
     /// Another recording of the device without what was drawn there, its nominal parameters as `overrides` say.
     pub fn taken_out(&self, subject: &Subject, overrides: &Overrides) -> Option<Subject> {
-        let law = self.law?;
         let prediction = subject.predict(&[], overrides).ok()?;
         let mut other = subject.clone();
+        if matches!(self.drawn, Drawn::Late) {
+            return Some(Late::of(subject, overrides)?.put_off(subject));
+        }
         for signal in &self.signals {
-            if let Some(reading) = Reading::of(&other, &prediction, *signal, law, true) {
-                reading.take_out(&mut other, *signal);
+            match self.drawn {
+                Drawn::By(law) => {
+                    if let Some(reading) = Reading::of(&other, &prediction, *signal, law, true) {
+                        reading.take_out(&mut other, *signal);
+                    }
+                }
+                Drawn::In(steps) => {
+                    steps.take_out(&mut other, &prediction, *signal);
+                    let trained = self.subject.runs.first()?.floors[*signal];
+                    for floor in other.runs.iter_mut().map(|run| &mut run.floors[*signal]) {
+                        *floor = Floor { timing: floor.timing, ..trained };
+                    }
+                }
+                Drawn::Late | Drawn::Noise => return None,
             }
         }
         Some(other)
@@ -53,6 +96,9 @@ impl Chance {
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
 const MOST_LEFT: f64 = 0.05;
+
+/// How often what was drawn and the nominal parameters are found anew, each beside the other.
+const ROUNDS: usize = 3;
 
 /// Looks for effects that draw in what `bare` leaves of the device at `place` of the study. `is_asked` says of an effect's id whether it is
 /// looked for.
@@ -65,7 +111,11 @@ pub fn find(place: usize, study: &Study, is_asked: &(dyn Fn(&str) -> bool + Sync
     let by_reading =
         || [Law::Away, Law::Lost].into_iter().find_map(|law| taken_out(subject, bare, before, law, is_asked));
     let has_gap = before > THRESHOLD;
-    let found = if has_gap { by_reading() } else { None };
+    let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
+    // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
+    let found =
+        found.or_else(|| if has_gap && is_asked("sampling-jitter") { late(subject, bare, before) } else { None });
+    let found = found.or_else(|| if has_gap { by_reading() } else { None });
     found.or_else(|| if is_asked("noise") { scatter::find(place, study, has_gap) } else { None })
 }
 
@@ -80,21 +130,37 @@ fn taken_out(
     if !is_asked(law.id()) {
         return None;
     }
-    let read_all = |is_known: bool| -> Vec<(usize, Reading)> {
+    let read_all = |bare: &Bare, is_known: bool| -> Vec<(usize, Reading)> {
         let read = |signal: usize| Some((signal, Reading::of(subject, &bare.prediction, signal, law, is_known)?));
         (0..subject.signals.len()).filter_map(read).collect()
     };
-    let shown = read_all(false);
-    if shown.is_empty() {
-        return None;
+    let without = |bare: &Bare| {
+        let shown = read_all(bare, false);
+        if shown.is_empty() {
+            return None;
+        }
+        // Reports get lost of a whole link, a contact is one signal's.
+        let readings = if law == Law::Lost && shown.len() > 1 { read_all(bare, true) } else { shown };
+        let mut other = subject.clone();
+        readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
+        let nominal = other.predict(&[], &Overrides::none()).ok()?;
+        other.find_floors(&nominal, Timing::AsFound);
+        let bare = fitted(&mut other, bare, &nominal);
+        Some((readings, other, bare))
+    };
+    // What was drawn may have spoilt the nominal parameters so that it cannot be read beside them.
+    let nominal = || {
+        let prediction = subject.predict(&[], &Overrides::none()).ok()?;
+        Some(Bare { overrides: Overrides::none(), prediction, ..bare.clone() })
+    };
+    let (mut readings, mut other, mut bare) = without(bare).or_else(|| without(&nominal()?))?;
+    // What was drawn had a part in the nominal parameters that it was read beside.
+    for _ in 1..ROUNDS {
+        if evidence(&other, &bare.prediction) <= THRESHOLD {
+            break;
+        }
+        (readings, other, bare) = without(&bare)?;
     }
-    // Reports get lost of a whole link, a contact is one signal's.
-    let readings = if law == Law::Lost && shown.len() > 1 { read_all(true) } else { shown };
-    let mut other = subject.clone();
-    readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
-    let nominal = other.predict(&[], &Overrides::none()).ok()?;
-    other.find_floors(&nominal, Timing::AsFound);
-    let bare = fitted(&mut other, bare, &nominal);
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
         return None;
     }
@@ -113,7 +179,49 @@ fn taken_out(
         Bounds { value: time.0, interval: time.1, is_identifiable: true },
     ];
     let candidate = candidate(law.id(), EffectPlace::ReportLink, component, &["probability", name], &bounds)?;
-    Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, law: Some(law), signals })
+    Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, drawn: Drawn::By(law), signals })
+}
+
+/// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
+fn late(subject: &Subject, bare: &Bare, before: f64) -> Option<Chance> {
+    let mut late = Late::of(subject, &bare.overrides)?;
+    let anew = |late: &Late, bare: &Bare| {
+        let mut other = late.put_off(subject);
+        let nominal = other.predict(&[], &Overrides::none()).ok()?;
+        let bare = fitted(&mut other, bare, &nominal);
+        Some((other, bare))
+    };
+    let (mut other, mut bare) = anew(&late, bare)?;
+    // What commands that came late had made of the nominal parameters is undone by and by.
+    for _ in 0..ROUNDS {
+        if evidence(&other, &bare.prediction) <= THRESHOLD {
+            break;
+        }
+        late.again(subject, &bare.overrides)?;
+        (other, bare) = anew(&late, &bare)?;
+    }
+    if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
+        return None;
+    }
+    let bounds = vec![late.sigma()?];
+    let candidate = candidate("sampling-jitter", EffectPlace::CommandLink, None, &["sigma"], &bounds)?;
+    let misfit = misfit(&subject.score(&subject.predict(&[], &bare.overrides).ok()?));
+    Some(Chance { candidate, bounds, subject: other, bare, misfit, drawn: Drawn::Late, signals: Vec::new() })
+}
+
+/// The device as its sensor reads it, if that has steps of its own. They are sure whatever else is wrong with the device.
+fn in_steps(place: usize, study: &Study) -> Option<Chance> {
+    let (subject, bare) = (&study.subjects[place], &study.bare[place]);
+    let (signal, steps, misfit) = steps::find(place, study)?;
+    let mut other = subject.clone();
+    steps.take_out(&mut other, &bare.prediction, signal);
+    let nominal = other.predict(&[], &Overrides::none()).ok()?;
+    other.find_floors(&bare.prediction, Timing::AsFound);
+    let bare = fitted(&mut other, bare, &nominal);
+    let component = Some(subject.signals[signal].property.clone());
+    let bounds = vec![steps.bounds()];
+    let candidate = candidate("quantisation", EffectPlace::Sensor, component, &["step"], &bounds)?;
+    Some(Chance { candidate, bounds, subject: other, bare, misfit, drawn: Drawn::In(steps), signals: vec![signal] })
 }
 
 /// The nominal parameters of a device whose recording changed, and its floors under them.

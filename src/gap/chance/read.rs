@@ -191,21 +191,32 @@ impl Reading {
         let drawn: Vec<usize> = up.iter().copied().filter(|at| recorded[*at] == 0.0).collect();
         let wrong = all().filter(|at| foreseen[*at] == 0.0 && recorded[*at] != 0.0).count();
         let stretches = stretches(&drawn);
+        let is_up = |at: Option<usize>| at.is_some_and(|at| (track.first..count).contains(&at) && foreseen[at] != 0.0);
+        let begins_up = |from: usize| is_up(from.checked_sub(1));
+        let ends_up = |to: usize| is_up(Some(to + 1));
         // Away and back again while nothing changes: what else would do that?
-        let is_inner = |(from, to): &&(usize, usize)| {
-            let is_up =
-                |at: Option<usize>| at.is_some_and(|at| at < count && foreseen[at] != 0.0 && recorded[at] != 0.0);
-            to > from && is_up(from.checked_sub(1)) && is_up(Some(to + 1))
-        };
-        let inner = stretches.iter().filter(is_inner).count();
-        if wrong > predicted.len() || inner * 2 < stretches.len() || inner < 2 {
+        let inner: Vec<&(usize, usize)> =
+            stretches.iter().filter(|(from, to)| to > from && begins_up(*from) && ends_up(*to)).collect();
+        let is_by_itself = inner.len() * 2 >= stretches.len() && inner.len() >= 2;
+        // Or it begins and ends, where nothing else does, with windows of one length: both, as what comes late or goes early has one of
+        // them, at instants that the automation's own cycle may have given.
+        let middle = |at: usize| 0.5 * (track.grid.instants[at - 1] + track.grid.instants[at]);
+        let of =
+            |ends: bool| stretches.iter().filter(move |(from, to)| if ends { ends_up(*to) } else { begins_up(*from) });
+        let begins: Vec<f64> = of(false).map(|(from, _)| middle(*from)).collect();
+        let ends: Vec<f64> = of(true).map(|(_, to)| middle(to + 1)).collect();
+        let are_both = 3 * begins.len().min(ends.len()) >= begins.len().max(ends.len());
+        let window = windows(&[begins, ends].concat(), track.grid.cycle).filter(|_| are_both);
+        if wrong > predicted.len() || !is_by_itself && window.is_none() {
             return None;
         }
         self.telling += up.len();
         self.drawn += drawn.len();
         self.misfit += 24.0 * stretches.len() as f64;
-        let long = stretches.iter().filter(is_inner);
-        self.spans.extend(long.map(|(from, to)| (to - from + 1) as f64 * track.grid.cycle));
+        self.spans.extend(match window {
+            Some(window) => vec![window; stretches.len()],
+            None => inner.iter().map(|(from, to)| (to - from + 1) as f64 * track.grid.cycle).collect(),
+        });
         self.stretches.push(stretches);
         Some(())
     }
@@ -331,6 +342,34 @@ fn sooner(these: &[f64], those: &[f64]) -> f64 {
     these.iter().map(wins).sum::<usize>() as f64 / (these.len() * those.len()).max(1) as f64
 }
 
+/// How many cycles a window lasts at least, and how long at most, s.
+const WINDOW_CYCLES: f64 = 3.0;
+const LONGEST_WINDOW_S: f64 = 0.5;
+/// How much rarer than all lengths that are tried together it must be by chance that instants lie so on the borders of windows.
+const RARER: f64 = 100.0;
+
+/// The length of the windows on whose borders `instants` lie, s, each known to within a cycle; `None` where they lie anywhere. By chance the
+/// mean of n unit vectors is as long as r with a probability of exp(−n·r²) (Lord Rayleigh, Phil. Mag. 37, 1919).
+fn windows(instants: &[f64], cycle: f64) -> Option<f64> {
+    let n = instants.len() as f64;
+    let span = instants.iter().copied().fold(0.0, f64::max) - instants.iter().copied().fold(f64::INFINITY, f64::min);
+    if instants.len() < LEAST_DRAWN || span <= LONGEST_WINDOW_S {
+        return None;
+    }
+    let (most, least) = (1.0 / (WINDOW_CYCLES * cycle), 1.0 / LONGEST_WINDOW_S);
+    let tried = ((most - least).max(0.0) * 4.0 * span).ceil();
+    let length = |rate: f64| {
+        let angles = || instants.iter().map(|at| std::f64::consts::TAU * rate * at);
+        let (x, y) = (angles().map(f64::cos).sum::<f64>(), angles().map(f64::sin).sum::<f64>());
+        x.hypot(y) / n
+    };
+    let rates = (0..=tried as usize).map(|k| least + k as f64 / (4.0 * span));
+    let (seen, rate) = rates.map(|rate| (length(rate), rate)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // Borders of long windows are those of their halves and thirds as well.
+    let longer = (2..=4).rev().map(|times| rate / f64::from(times)).find(|rate| length(*rate) > 0.9 * seen);
+    (n * seen * seen > (RARER * tried.max(1.0)).ln()).then(|| 1.0 / longer.unwrap_or(rate))
+}
+
 /// Neighbouring places as stretches.
 fn stretches(places: &[usize]) -> Vec<(usize, usize)> {
     let mut stretches: Vec<(usize, usize)> = Vec::new();
@@ -448,6 +487,35 @@ mod tests {
         };
         assert!(read(&|_, share| share < 0.3).is_none());
         assert!(read(&|k, _| k % 5 == 0).is_some());
+    }
+
+    /// A flag that is up for two to four tenths of a second each time, of which each tenth may be away: few of those lie within. One that
+    /// comes late by multiples of 5 ms is not away by windows.
+    #[test]
+    fn a_flag_that_is_up_for_few_windows_is_away_by_windows() {
+        let read = |late: &dyn Fn(usize) -> f64, is_away: &dyn Fn(usize) -> bool| {
+            let mut flag = track(Vec::new());
+            flag.grid = Arc::new(Grid::of_steps(0.01, 60.0));
+            let index = |at: f64| (at / 0.01).ceil() as usize;
+            let mut state = vec![0.0; 6100];
+            let mut predicted = Vec::new();
+            for k in 0..40_usize {
+                let on = 1.0 + 1.437 * k as f64;
+                let off = on + 0.2 + 0.05 * (k % 5) as f64;
+                predicted.extend([(on, index(on), 1.0), (off, index(off), 0.0)]);
+                let shown = index(on + late(k))..index(off);
+                shown.for_each(|at| state[at] = f64::from(u8::from(!is_away(at / 10))));
+            }
+            let change = |at: &usize| state[*at] != state[at - 1];
+            flag.edges = (1..6000).filter(change).map(|index| Edge { index, to: state[index] }).collect();
+            let mut reading = Reading { cycle: 0.01, ..Reading::default() };
+            reading.flag_away(&flag, 0.0, &predicted).map(|()| reading)
+        };
+        let by_windows = read(&|_| 0.0, &|window| (window * 7) % 10 < 3).expect("windows");
+        let (least, share, most) = by_windows.share();
+        assert!((by_windows.window().0 - 0.1).abs() < 1e-3, "{:?}", by_windows.window());
+        assert!(least < 0.3 && 0.3 < most && (share - 0.3).abs() < 0.1, "{share}");
+        assert!(read(&|k| 0.2 * ((k * 17) % 40) as f64 / 40.0, &|_| false).is_none());
     }
 
     /// Of a flag that goes up at 10 and down at 50, and is away from 20 to 29, nothing but its two edges is left.

@@ -1,6 +1,6 @@
 //! A sensor that scatters: its noise, in the steps that it is reported in, beside that of all other levels of the machine.
 
-use super::{Chance, candidate};
+use super::{Chance, Drawn, candidate};
 use crate::gap::cause::Bounds;
 use crate::gap::statistics::quantile;
 use crate::gap::{Predicted, Run, Study};
@@ -53,7 +53,7 @@ pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance>
     let candidate = candidate("noise", EffectPlace::Sensor, component, &["sigma"], &bounds)?;
     let misfit = count * (noise / usual.max(LEAST)).powi(2);
     let (subject, bare) = (subject.clone(), study.bare[place].clone());
-    Some(Chance { candidate, bounds, subject, bare, misfit, law: None, signals: vec![signal] })
+    Some(Chance { candidate, bounds, subject, bare, misfit, drawn: Drawn::Noise, signals: vec![signal] })
 }
 
 /// Whether a noise is far more than the `usual` one of the machine, and than that of the same report of other devices, all in steps.

@@ -64,6 +64,8 @@ impl Measured {
             // What was not looked at is not measured either.
             let Some(finding) = findings.iter().find(|finding| finding.subject == place) else { continue };
             let specs = finding.specs();
+            let without = finding.chance.as_ref().and_then(|chance| chance.judged_without(subject));
+            let subject = without.as_ref().unwrap_or(subject);
             let (bare, best) = (&finding.ladder.bare.overrides, &finding.ladder.best.overrides);
             let with = |subject: &Subject| match specs.is_empty() {
                 true => None,

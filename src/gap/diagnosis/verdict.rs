@@ -245,7 +245,10 @@ impl Site<'_> {
         }
         match (candidate.effect.id, declared.quantities) {
             ("jerk-limit", _) => if self.is_rotary() { "rad/s3" } else { "m/s3" }.to_owned(),
-            ("offset" | "hysteresis" | "blind-range" | "drift" | "stuck", [Quantity::One]) => {
+            (
+                "offset" | "hysteresis" | "blind-range" | "drift" | "stuck" | "quantisation" | "noise",
+                [Quantity::One],
+            ) => {
                 let port = candidate.component.as_deref().and_then(|name| self.subject.kind.port(name));
                 let unit = port
                     .and_then(|port| of(self.subject.kind.ports[port].quantities))

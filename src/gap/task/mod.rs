@@ -3,8 +3,8 @@
 //!
 //! A PLC runs its task every so often, with a phase that nobody wrote down; a drive answers a bus cycle later; every input passes
 //! the same filter. All of that is the recording's, not a device's. It is looked for once, before any device is, and only where
-//! several devices ask for the same, or the only one of several at work that can tell is explained by it to its floor: what is left of one device alone is
-//! its own gap. (Within one clock no other offset of a device is ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
+//! several devices ask for the same, or the only one of several at work that can tell, or one of its signals, is explained by it to its floor:
+//! what is left of one device alone is its own gap. (Within one clock no other offset of a device is ever fitted away.) What is looked for is bounded by what such machines do: reports at most [`MOST_AGE_S`] old, filters of at
 //! most [`MOST_FILTER_S`](super::filter::MOST_FILTER_S).
 
 mod voter;
@@ -95,15 +95,19 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
     }
     let nearer = before.iter().zip(&best.costs).filter(|(before, after)| *before - *after > NEARER).count();
     let gain = before.iter().sum::<f64>() - best.cost;
-    let is_whole = |(voter, (before, after)): (&Voter, (&f64, &f64))| {
-        before - after > NEARER && voter.mean_square_at(*after) < EXPLAINED
+    let is_whole = |(voter, (before, after)): (&Voter, (&f64, &f64))| -> Result<bool, EffectError> {
+        let is_nearer = before - after > NEARER;
+        Ok(is_nearer && (voter.mean_square_at(*after) < EXPLAINED || voter.has_explained_signal(best.task)?))
     };
-    let is_explained = || voters.iter().zip(before.iter().zip(&best.costs)).any(is_whole);
+    let is_explained = || -> Result<bool, EffectError> {
+        let whole = voters.iter().zip(before.iter().zip(&best.costs)).map(is_whole);
+        Ok(whole.collect::<Result<Vec<bool>, _>>()?.contains(&true))
+    };
     // Where nothing else was at work, it is that device that was looked at.
     let is_at_work =
         |subject: &&Subject| subject.runs[run].tracks.iter().flatten().any(|track| !track.edges.is_empty());
     let are_others = || subjects.iter().filter(is_at_work).count() >= LEAST_DEVICES;
-    let is_common = nearer >= LEAST_DEVICES || nearer == 1 && are_others() && is_explained();
+    let is_common = nearer >= LEAST_DEVICES || nearer == 1 && are_others() && is_explained()?;
     if !is_common || gain <= THRESHOLD {
         return Ok(None);
     }

@@ -200,6 +200,27 @@ impl Voter {
         if self.count > 0.0 { (cost / self.count).exp() - LEAST_SQUARE } else { f64::INFINITY }
     }
 
+    /// Whether a task explains one of several signals to its floor that was off by far more without it: another may have a gap of its own.
+    pub fn has_explained_signal(&self, task: Task) -> Result<bool, EffectError> {
+        let squares = |under: &Subject, age_s: f64| -> Result<Vec<f64>, EffectError> {
+            let rest = self.rest(&under.predict(&[], &self.overrides())?) + &self.slopes * age_s;
+            let rest = &rest - &self.columns * self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+            let mut sums = vec![0.0; self.subject.signals.len()];
+            self.kept.iter().zip(rest.iter()).for_each(|((place, _), rest)| sums[*place] += rest * rest);
+            Ok(sums)
+        };
+        let (before, after) = (squares(&self.subject, 0.0)?, squares(&self.under(task), task.age_s)?);
+        let share = |place: usize| self.subject.runs[0].floors[place].share();
+        let count = |place: usize| self.kept.iter().filter(|(of, _)| *of == place).count() as f64 * share(place);
+        let is_explained = |place: usize| {
+            let (count, square) = (count(place), |sum: f64| LEAST_SQUARE + sum / count(place));
+            count > 0.0
+                && after[place] < EXPLAINED * count
+                && count * (square(before[place]) / square(after[place])).ln() > THRESHOLD
+        };
+        Ok((0..before.len()).any(is_explained))
+    }
+
     /// What is left under a task, or as the run has it.
     pub fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
         let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));

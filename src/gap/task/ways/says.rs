@@ -191,20 +191,23 @@ fn is_free(task: Task, at: f64) -> bool {
 }
 
 /// What of a device's own could look like ways of its commands, by message: of each port whether it is told, which way it is to
-/// go, how far that is, either way and in all, and when.
+/// go, how far that is, either way and in all, and when; and, of what goes on until it is told otherwise, a share of the way since the
+/// command before, either way, in all and the longer the more: a drive that is too slow by next to nothing falls back by that.
 fn own_of(stamped: &[(usize, Stamped)], told: &[f64]) -> DMatrix<f64> {
-    const EACH: usize = 5;
+    const EACH: usize = 8;
     let ports = stamped.iter().map(|(port, _)| *port).collect::<std::collections::BTreeSet<_>>();
     let ends = told.last().copied().unwrap_or(1.0).max(1.0);
     let mut own = DMatrix::zeros(told.len(), EACH * ports.len());
     for (place, port) in ports.iter().enumerate() {
-        let mut before = 0.0;
+        let (mut before, mut since) = (0.0, 0.0);
         for (_, command) in stamped.iter().filter(|(to, _)| to == port) {
             let by = command.value - before;
-            before = command.value;
+            let way = before * (command.at - since);
+            (before, since) = (command.value, command.at);
             let row = told.partition_point(|at| *at < command.at);
             if told.get(row) == Some(&command.at) && by != 0.0 {
-                let each = [1.0, by.signum(), by, by.abs(), command.at / ends];
+                let (time, share) = (command.at / ends, way / by);
+                let each = [1.0, by.signum(), by, by.abs(), time, share, share * way.signum(), share * time];
                 each.iter().enumerate().for_each(|(k, value)| own[(row, EACH * place + k)] = *value);
             }
         }

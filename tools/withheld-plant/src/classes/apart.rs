@@ -1,7 +1,7 @@
 //! How far two outputs of a device lie apart: exactly, by the rule of the magnitudes, and in a form that has slopes for the search.
 
 use super::alone::{Alone, Heard};
-use crate::magnitude;
+use crate::magnitude::Unsure;
 use crate::plant::{Kind, Signal};
 
 /// A flag's edge is looked for so near, s.
@@ -13,7 +13,7 @@ const LOST: f64 = 10.0;
 /// The scales of a device's signals.
 pub struct Measure {
     /// By signal; of a flag nothing.
-    unsure: Vec<Option<f64>>,
+    unsure: Vec<Option<Unsure>>,
     cycle: f64,
 }
 
@@ -22,7 +22,7 @@ impl Measure {
     pub fn new(device: &Alone<'_>, signals: &[Signal]) -> Measure {
         let unsure = |signal: &Signal| {
             let is_level = matches!(signal.kind, Kind::Level | Kind::Count);
-            is_level.then(|| magnitude::unsure(signal, device.around))
+            is_level.then(|| Unsure::of(signal, device.around))
         };
         Measure { unsure: signals.iter().map(unsure).collect(), cycle: device.around.cycle }
     }
@@ -34,29 +34,22 @@ impl Measure {
 
     /// The same, by signal.
     pub fn by_signal(&self, one: &Heard, other: &Heard) -> Vec<f64> {
-        let mut sums = vec![0.0; self.unsure.len()];
-        for (a, b) in one.values.iter().zip(&other.values) {
-            for (((sum, unsure), a), b) in sums.iter_mut().zip(&self.unsure).zip(a).zip(b) {
-                *sum += match unsure {
-                    Some(unsure) => ((a - b) / unsure).powi(2),
-                    None if a != b => 12.0,
-                    None => 0.0,
-                };
+        let of = |(signal, unsure): (usize, &Option<Unsure>)| {
+            let pairs = pairs(one, other, signal);
+            match unsure {
+                Some(unsure) => unsure.apart(pairs).iter().map(|apart| apart * apart).sum(),
+                None => 12.0 * pairs.filter(|(a, b)| a != b).count() as f64,
             }
-        }
-        sums
+        };
+        self.unsure.iter().enumerate().map(of).collect()
     }
 
     /// Differences whose squares sum to about the same and that move with every edge: `other` less `one`, as many as `one` has values
     /// and edges.
     pub fn differences(&self, one: &Heard, other: &Heard) -> Vec<f64> {
         let mut all = Vec::with_capacity(one.values.len() * self.unsure.len());
-        for (a, b) in one.values.iter().zip(&other.values) {
-            for ((unsure, a), b) in self.unsure.iter().zip(a).zip(b) {
-                if let Some(unsure) = unsure {
-                    all.push((b - a) / unsure);
-                }
-            }
+        for (signal, unsure) in self.unsure.iter().enumerate() {
+            all.extend(unsure.iter().flat_map(|unsure| unsure.apart(pairs(other, one, signal))));
         }
         for (one, other) in one.edges.iter().zip(&other.edges) {
             self.edges(one, other, &mut all);
@@ -67,7 +60,8 @@ impl Measure {
     /// The signal of each of the [`differences`](Measure::differences) from `one`.
     pub fn owners(&self, one: &Heard) -> Vec<usize> {
         let levels = || (0..self.unsure.len()).filter(|signal| self.unsure[*signal].is_some());
-        let mut owners: Vec<usize> = one.values.iter().flat_map(|_| levels()).collect();
+        let count = one.values.len();
+        let mut owners: Vec<usize> = levels().flat_map(|signal| std::iter::repeat_n(signal, count)).collect();
         for (signal, edges) in one.edges.iter().enumerate() {
             owners.extend(std::iter::repeat_n(signal, edges.len() + 1));
         }
@@ -103,4 +97,9 @@ impl Measure {
         let size = if cycles.abs() <= 1.0 { cycles.abs() } else { (2.0 * cycles.abs() - 1.0).sqrt() };
         12.0_f64.sqrt() * size.copysign(cycles)
     }
+}
+
+/// What the one and the other have for a signal, report by report.
+fn pairs<'a>(one: &'a Heard, other: &'a Heard, signal: usize) -> impl Iterator<Item = (f64, f64)> + 'a {
+    one.values.iter().zip(&other.values).map(move |(a, b)| (a[signal], b[signal]))
 }

@@ -1,0 +1,341 @@
+//! A sensor that reads in steps, behind a report that could show finer ones.
+//!
+//! Every report is rounded, and a sensor whose report has the steps that it was given is in order. One that reads in steps of its own
+//! leaves another mark: what it reports lies about the multiples of a step, though the report's own lattice, which noise or the
+//! rounding of those multiples shows, is several times finer. Noise never does that, and no law: a motion passes all values alike, and
+//! the difference to what is predicted is spread evenly over a step. Where the report shows no lattice but that of its number
+//! format, an encoder's counts would look the same, and nothing is claimed; nor where the like of it read in such steps everywhere.
+//!
+//! Whether values lie about the multiples of a step s is asked of the mean of cos 2πy/s over samples that move (the periodogram of a
+//! point process: M. S. Bartlett, J. R. Stat. Soc. B 25, 1963), beside that of what is predicted, which rests at round numbers now
+//! and then.
+
+use std::f64::consts::TAU;
+
+use crate::gap::cause::Bounds;
+use crate::gap::floor::Floor;
+use crate::gap::locate::THRESHOLD;
+use crate::gap::prediction::{Predicted, Prediction};
+use crate::gap::study::Study;
+use crate::gap::subject::Subject;
+
+/// How many times the report's own step the sensor's must be: two and less leave no more than the rounding does.
+const COARSER: f64 = 3.0;
+/// Rounding to a step leaves it over √12, as its differences are spread evenly. Between which multiples of what that makes of them it is
+/// looked for: noise and parameters that are fitted to it add to it or take away.
+const ABOUT: [f64; 2] = [0.5, 1.6];
+/// Noise behind the sensor spreads readings about its steps, and the mean of their cosines is then exp(−2π²σ²/s²): which share of that
+/// it must be at least, the noise being known from rests. What sticks at one value while it should move gathers, but not so nearly.
+const AS_NEAR: f64 = 0.5;
+/// Multiples of a step are multiples of its half and its third, too: the longest that gathers as well is the step. How many are tried, and
+/// how well is as well.
+const MULTIPLES: u32 = 4;
+const AS_WELL: f64 = 0.8;
+/// How many steps are tried for one that differs by a whole turn of the furthest value.
+const FINELY: f64 = 4.0;
+/// How many times the step of the like of it may differ to be the same.
+const ALIKE: f64 = 2.0;
+/// How many standard deviations of the noise behind the sensor a reading may be off the step that it is predicted to show.
+const GATE: f64 = 4.0;
+
+/// The steps of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Steps {
+    /// From one reading to the next, SI, and how well that is known, standard deviation.
+    pub step: f64,
+    pub deviation: f64,
+    /// What its reports are rounded to, SI.
+    own: f64,
+    /// How far they lie off the multiples of the step, standard deviation, SI: noise behind the sensor, and that rounding.
+    noise: f64,
+}
+
+impl Steps {
+    /// The steps in which a level is read; `None` where it shows none.
+    pub fn of(subject: &Subject, prediction: &Prediction, signal: usize) -> Option<Steps> {
+        if subject.signals[signal].is_count {
+            return None;
+        }
+        let (mut values, mut pairs) = (Vec::new(), Vec::new());
+        for (run, predicted) in subject.runs.iter().zip(&prediction.runs) {
+            if let (Some(track), Predicted::Level(predicted)) = (&run.tracks[signal], &predicted[signal]) {
+                let (recorded, predicted) = track.evident(predicted);
+                values.extend_from_slice(&recorded);
+                pairs.push((recorded, predicted));
+            }
+        }
+        let own = lattice(values)?;
+        let noise = subject.runs.iter().map(|run| run.floors[signal].noise).fold(f64::INFINITY, f64::min);
+        let moving = pairs.iter().flat_map(|(recorded, predicted)| moving(recorded, predicted, 0.5 * COARSER * own));
+        Steps::among(&moving.collect::<Vec<_>>(), own, noise)
+    }
+
+    /// The same from pairs of what was recorded and predicted in motion, on the lattice `own` of the report, whose noise at rest is
+    /// `noise`.
+    fn among(moving: &[(f64, f64)], own: f64, noise: f64) -> Option<Steps> {
+        let count = moving.len() as f64;
+        let rms = (moving.iter().map(|(y, p)| (y - p).powi(2)).sum::<f64>() / count.max(1.0)).sqrt();
+        let [least, most] = ABOUT.map(|share| share * rms * 12.0_f64.sqrt());
+        let least = least.max(COARSER * own);
+        let furthest = moving.iter().map(|(y, _)| y.abs()).fold(0.0, f64::max);
+        if least >= most.min(furthest) {
+            return None;
+        }
+        let finely = 1.0 / (FINELY * furthest);
+        let tried = ((1.0 / least - 1.0 / most) / finely).ceil() as usize + 1;
+        let read = once(moving, 0.5 * COARSER * own);
+        let predicted: Vec<f64> = moving.iter().map(|(_, p)| *p).collect();
+        let gathered = |values: &[f64], rate: f64| {
+            values.iter().map(|value| (TAU * rate * value).cos()).sum::<f64>() / values.len() as f64
+        };
+        let rates = (0..tried).map(|k| 1.0 / most + k as f64 * finely).map(|rate| (gathered(&read, rate), rate));
+        let (seen, rate) = rates.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let longer = (2..=MULTIPLES).rev().map(|times| rate / f64::from(times));
+        let longer = longer.map(|rate| (gathered(&read, rate), rate)).find(|longer| longer.0 > AS_WELL * seen);
+        let (seen, rate) = longer.unwrap_or((seen, rate));
+        let beyond = seen - gathered(&predicted, rate).max(0.0);
+        // By chance a mean of cosines beyond c is as rare as exp(−n·c²), one beyond another's as exp(−n·c²/2), in each try.
+        if beyond <= 0.0 || read.len() as f64 * beyond * beyond <= THRESHOLD + 2.0 * (tried as f64).ln() {
+            return None;
+        }
+        let spread = TAU * rate * (noise * noise + own * own / 12.0).sqrt();
+        if seen < AS_NEAR * (-0.5 * spread * spread).exp() {
+            return None;
+        }
+        Some(Steps::fitted(moving, &read, rate, own))
+    }
+
+    /// The step about whose multiples readings gather the most, from a rate in steps per unit that is nearly its own: where the sum of
+    /// cos 2πyf has no slope, with the variance of such an estimate (P. J. Huber, Robust Statistics, Wiley 1981, section 6.4). Readings
+    /// of one multiple are rounded alike, so that all of them tell as much as one.
+    fn fitted(moving: &[(f64, f64)], read: &[f64], mut rate: f64, own: f64) -> Steps {
+        const ITERATIONS: usize = 6;
+        let mut deviation = 0.0;
+        for _ in 0..ITERATIONS {
+            let mut slopes: Vec<(f64, f64)> =
+                read.iter().map(|y| ((y * rate).round(), TAU * y * (TAU * y * rate).sin())).collect();
+            slopes.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let bend: f64 = read.iter().map(|y| (TAU * y).powi(2) * (TAU * y * rate).cos()).sum();
+            let of_one = |same: &[(f64, f64)]| same.iter().map(|of| of.1).sum::<f64>();
+            let each: Vec<f64> = slopes.chunk_by(|a, b| a.0 == b.0).map(of_one).collect();
+            rate -= each.iter().sum::<f64>() / bend;
+            deviation = each.iter().map(|slope| slope * slope).sum::<f64>().sqrt() / bend.abs();
+        }
+        let step = 1.0 / rate;
+        let off = |(y, _): &(f64, f64)| (y - step * (y / step).round()).powi(2);
+        let noise = (moving.iter().map(off).sum::<f64>() / moving.len() as f64).sqrt();
+        // No better than the rounding of the furthest reading lets it be.
+        let furthest = moving.iter().map(|(y, _)| (y * rate).abs()).fold(1.0, f64::max);
+        let least = own / (12.0_f64.sqrt() * furthest * (furthest / 3.0).sqrt().max(1.0));
+        Steps { step, deviation: (deviation * step * step).max(least), own, noise }
+    }
+
+    /// What is known of the step, with 95 %.
+    pub fn bounds(&self) -> Bounds {
+        let off = 1.96 * self.deviation;
+        Bounds { value: self.step, interval: [self.step - off, self.step + off], is_identifiable: true }
+    }
+
+    /// Whether the like of it read in the same steps.
+    fn is_like(&self, other: &Steps) -> bool {
+        (1.0 / ALIKE..ALIKE).contains(&(self.step / other.step))
+    }
+
+    /// By how many floors of its report squared a signal is off by its steps.
+    fn misfit(&self, subject: &Subject, prediction: &Prediction, signal: usize) -> f64 {
+        let floor = self.noise.max(self.own / 12.0_f64.sqrt());
+        let of = |(run, predicted): (&crate::gap::Run, &Vec<Predicted>)| match (&run.tracks[signal], &predicted[signal])
+        {
+            (Some(track), Predicted::Level(predicted)) => {
+                track.values.iter().zip(predicted).map(|(y, p)| ((y - p) / floor).powi(2)).sum()
+            }
+            _ => 0.0,
+        };
+        subject.runs.iter().zip(&prediction.runs).map(of).sum()
+    }
+
+    /// Takes out of a signal what its report adds to what its sensor reads, so that its values are whole steps.
+    pub fn take_out(&self, subject: &mut Subject, prediction: &Prediction, signal: usize) {
+        for (run, predicted) in subject.runs.iter_mut().zip(&prediction.runs) {
+            if let (Some(track), Predicted::Level(predicted)) = (&mut run.tracks[signal], &predicted[signal]) {
+                track.values.iter_mut().zip(predicted).for_each(|(value, predicted)| {
+                    *value = self.read(*value, *predicted);
+                });
+            }
+        }
+    }
+
+    /// What the sensor read: the step that is nearest to what is predicted where noise may have made it what is recorded, else to that.
+    fn read(&self, recorded: f64, predicted: f64) -> f64 {
+        let nearest = |value: f64| self.step * (value / self.step).round();
+        let foreseen = nearest(predicted);
+        if (recorded - foreseen).abs() <= GATE * self.noise { foreseen } else { nearest(recorded) }
+    }
+
+    /// The floor of a signal whose sensor had no steps but those of its report.
+    pub fn without(&self, floor: Floor) -> Floor {
+        let noise = (self.noise.powi(2) - self.own.powi(2) / 12.0).max(0.0).sqrt();
+        Floor { step: self.own, noise, timing: floor.timing, ..Floor::default() }
+    }
+}
+
+/// Of the levels of the device at `place` the one that is read in the most coarse steps, how it was predicted to be off by them, and the steps.
+pub(super) fn find(place: usize, study: &Study) -> Option<(usize, Steps, f64)> {
+    let of = |at: usize, signal: usize| Steps::of(&study.subjects[at], &study.bare[at].prediction, signal);
+    let subject = &study.subjects[place];
+    let each = (0..subject.signals.len()).filter_map(|signal| Some((signal, of(place, signal)?)));
+    let (signal, steps) = each.max_by(|a, b| (a.1.step / a.1.own).total_cmp(&(b.1.step / b.1.own)))?;
+    let property = &subject.signals[signal].property;
+    let others = study.subjects.iter().enumerate().filter(|(at, _)| *at != place);
+    let mut likes = others.flat_map(|(at, other)| {
+        let is_like = |signal: &usize| other.signals[*signal].property == *property;
+        let moves = move |signal: &usize| {
+            other
+                .runs
+                .iter()
+                .flat_map(|run| &run.tracks[*signal])
+                .any(|track| track.values.windows(2).any(|two| two[0] != two[1]))
+        };
+        (0..other.signals.len()).filter(is_like).filter(moves).map(move |signal| (at, signal)).collect::<Vec<_>>()
+    });
+    let has_like = likes.clone().next().is_some();
+    let is_usual = has_like && likes.all(|(at, signal)| of(at, signal).is_some_and(|other| steps.is_like(&other)));
+    let misfit = || steps.misfit(subject, &study.bare[place].prediction, signal);
+    (!is_usual).then(|| (signal, steps, misfit()))
+}
+
+/// What was recorded and predicted wherever the prediction is at least `apart` from where it was taken before: all values alike, and a
+/// rest once.
+fn moving(recorded: &[f64], predicted: &[f64], apart: f64) -> Vec<(f64, f64)> {
+    let mut last = f64::INFINITY;
+    let mut taken = Vec::new();
+    for (y, p) in recorded.iter().zip(predicted) {
+        if (p - last).abs() >= apart {
+            last = *p;
+            taken.push((*y, *p));
+        }
+    }
+    taken
+}
+
+/// What was recorded, what stays within `apart` of one value counting once, as its mean: a drive may stick where it should move.
+fn once(moving: &[(f64, f64)], apart: f64) -> Vec<f64> {
+    let mut first = f64::INFINITY;
+    let mut stays: Vec<(f64, f64)> = Vec::new();
+    for (y, _) in moving {
+        match stays.last_mut().filter(|_| (y - first).abs() < apart) {
+            Some((sum, count)) => (*sum, *count) = (*sum + y, *count + 1.0),
+            None => {
+                first = *y;
+                stays.push((*y, 1.0));
+            }
+        }
+    }
+    stays.into_iter().map(|(sum, count)| sum / count).collect()
+}
+
+/// The lattice that values are rounded to: the greatest length of which all differences of neighbours are multiples; `None` where that is what
+/// single precision makes of any values.
+fn lattice(mut values: Vec<f64>) -> Option<f64> {
+    /// In units of what single precision leaves unsure: how well a difference is known, and how much longer a lattice must be.
+    const UNSURE: f64 = 4.0;
+    const SURELY: f64 = 8.0;
+    /// Of longer ones that many times the uncertainty of the lattice counts.
+    const SHORT: f64 = 8.0;
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let furthest = values.first()?.abs().max(values.last()?.abs());
+    let unit = furthest * f64::from(f32::EPSILON);
+    let differences: Vec<f64> =
+        values.windows(2).map(|pair| pair[1] - pair[0]).filter(|apart| *apart > UNSURE * unit).collect();
+    let least = differences.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut found = least;
+    for apart in differences.iter().filter(|apart| **apart < SHORT * least) {
+        let (mut long, mut short) = (*apart, found);
+        // Euclid's algorithm, to the nearest multiple.
+        while short > UNSURE * unit {
+            (long, short) = (short, (long - (long / short).round() * short).abs());
+        }
+        found = long;
+    }
+    (found.is_finite() && found > SURELY * unit).then_some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sweep to and fro over `span`, never twice at the same values, and what is made of it.
+    fn sweep(span: f64, made: impl Fn(f64, usize) -> f64) -> Vec<(f64, f64)> {
+        let at = |k: usize| span * (0.5 - 0.5 * (0.011 * k as f64).cos());
+        (0..3000).map(|k| (made(at(k), k), at(k))).collect()
+    }
+
+    fn rounded(value: f64, step: f64) -> f64 {
+        step * (value / step).round()
+    }
+
+    /// Evenly spread over ±√3, with a variance of 1.
+    fn noise(k: usize) -> f64 {
+        3.0_f64.sqrt() * (((k * 1238) % 2003) as f64 / 1001.0 - 1.0)
+    }
+
+    fn found(pairs: &[(f64, f64)], noise: f64) -> Option<Steps> {
+        let own = lattice(pairs.iter().map(|pair| f64::from(pair.0 as f32)).collect())?;
+        let (recorded, predicted): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+        Steps::among(&moving(&recorded, &predicted, 0.5 * COARSER * own), own, noise)
+    }
+
+    /// Steps of 7.3 lattices, without noise and with that of one and a half lattices.
+    #[test]
+    fn steps_behind_a_finer_report_are_found_with_their_interval() {
+        for scatter in [0.0, 1.5e-4] {
+            let pairs = sweep(0.8, |x, k| rounded(rounded(x, 7.3e-4) + scatter * noise(k), 1e-4));
+            let steps = found(&pairs, scatter).expect("steps");
+            let Bounds { interval: [least, most], .. } = steps.bounds();
+            assert!(least < 7.3e-4 && 7.3e-4 < most && most - least < 1e-6, "{steps:?}");
+            assert!((steps.own - 1e-4).abs() < 1e-7, "{steps:?}");
+        }
+    }
+
+    /// A report with its own steps alone, with noise of several of them, or with a wrong gain.
+    #[test]
+    fn rounding_noise_and_gains_are_no_steps() {
+        assert_eq!(found(&sweep(0.8, |x, _| rounded(x, 1e-4)), 0.0), None);
+        assert_eq!(found(&sweep(0.8, |x, k| rounded(x + 4e-4 * noise(k), 1e-4)), 4e-4), None);
+        assert_eq!(found(&sweep(0.8, |x, _| rounded(1.01 * x, 1e-4)), 0.0), None);
+    }
+
+    /// A drive that sticks at four speeds on its way, which are multiples of a tenth of its highest.
+    #[test]
+    fn what_sticks_while_it_should_move_shows_no_steps() {
+        let stick = |x: f64| if (10.0 * x).rem_euclid(2.0) < 0.7 { 0.1 * (10.0 * x).floor() } else { x };
+        assert_eq!(found(&sweep(0.8, |x, k| rounded(stick(x) + 1e-4 * noise(k), 1e-4)), 1e-4), None);
+    }
+
+    /// Noise of a fifth of a step: where a reading lies about its step is not sure, and the interval says so.
+    #[test]
+    fn the_interval_of_steps_in_noise_is_wide() {
+        let pairs = sweep(0.04, |x, k| rounded(rounded(x, 7.3e-4) + 1.5e-4 * noise(k), 1e-4));
+        let steps = found(&pairs, 1.5e-4).expect("steps");
+        let Bounds { interval: [least, most], .. } = steps.bounds();
+        assert!(least < 7.3e-4 && 7.3e-4 < most && most - least > 2e-7 && most - least < 2e-5, "{steps:?}");
+    }
+
+    /// An encoder's counts in all digits of single precision: nobody knows what it was to be read to.
+    #[test]
+    fn a_report_without_a_lattice_of_its_own_shows_no_steps() {
+        assert_eq!(found(&sweep(0.8, |x, _| f64::from(rounded(x, TAU / 4096.0) as f32)), 0.0), None);
+    }
+
+    #[test]
+    fn a_reading_is_a_whole_step_again() {
+        let steps = Steps { step: 1.0, deviation: 0.0, own: 0.01, noise: 0.1 };
+        assert_eq!(steps.read(2.1, 2.3), 2.0);
+        // On the verge between two steps the prediction has no say.
+        assert_eq!(steps.read(2.1, 2.55), 2.0);
+        assert_eq!(steps.read(2.1, 7.0), 2.0);
+        let floor = steps.without(Floor { step: 1.0, timing: 1e-5, ..Floor::default() });
+        assert!(floor.step == 0.01 && floor.timing == 1e-5 && (floor.noise - 0.1).abs() < 1e-3);
+    }
+}
