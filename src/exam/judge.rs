@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::{Answer, Magnitude, Sort, TrueEffect};
 use super::class;
-use crate::gap::report::{Cause, Member, Report, Verdict};
+use crate::gap::report::{Cause, Member, Report, Rival, Verdict};
 
 /// What one report got right. What does not apply to a case is absent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,7 +39,7 @@ pub struct Judged {
     pub both_right: Option<bool>,
     /// Of the parameters with a truth: how many lie in their interval, and how many there are.
     pub covered: [usize; 2],
-    /// The weight of the first cause.
+    /// The weight of the first cause and of all that is in its class.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
     /// The members of the class that was named.
@@ -86,7 +86,7 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
         truth_named: is_single.then(|| truths.iter().all(|truth| named(truth) || rival(truth))),
         both_right: is_two.then(|| truths.iter().all(named)),
         covered: if is_single && in_class() { covered(&truths[0], report) } else { [0, 0] },
-        weight: report.cause.first().map(|cause| cause.weight),
+        weight: report.cause.first().map(|cause| weight_of_class(cause, report)),
         class_size: report.cause.first().map_or(0, |cause| cause.class.len()),
         true_class_size: (!members.is_empty()).then_some(members.len()),
         true_class: match members.as_slice() {
@@ -97,6 +97,19 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
         oracle_shrink: None,
         seconds,
     }
+}
+
+/// The weight of a cause with that of the rivals that are in its class: what stands beside [`Judged::truth_in_class`].
+fn weight_of_class(cause: &Cause, report: &Report) -> f64 {
+    let is_member = |rival: &&Rival| {
+        let is_rival = |member: &Member| {
+            (&member.device, &member.component, &member.effect, member.place)
+                == (&rival.device, &rival.component, &rival.effect, rival.place)
+        };
+        cause.class.iter().any(is_rival)
+    };
+    let rivals = report.rivals.iter().filter(is_member).map(|rival| rival.weight).sum::<f64>();
+    (cause.weight + rivals).min(1.0)
 }
 
 /// A case that no report answers: wrong in all that applies to it.

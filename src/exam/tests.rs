@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::gap::report::{Cause, DeviceGap, FittedParameter, Report, Verdict};
+use crate::gap::report::{Cause, DeviceGap, FittedParameter, Report, Rival, Verdict};
 use crate::plant::EffectPlace;
 
 fn truth(device: &str, effect: &str, place: &str) -> TrueEffect {
@@ -73,6 +73,21 @@ fn a_class_that_holds_the_truth_is_right_and_both_of_two_must_be_found() {
     member.place = EffectPlace::ReportLink;
     ambiguous.cause[0].class.push(member);
     assert_eq!(judge(&late, &ambiguous, 1.0).single_right, Some(true));
+    // What the class weighs stands beside whether the truth is in it: the rival that is in it counts, another does not.
+    let rival = |effect: &str, weight: f64| Rival {
+        device: "Gripper".to_owned(),
+        component: None,
+        effect: effect.to_owned(),
+        place: EffectPlace::ReportLink,
+        weight,
+        told_apart_by: String::new(),
+        set: None,
+        parameters: Vec::new(),
+        texts: BTreeMap::new(),
+    };
+    ambiguous.cause[0].weight = 0.5;
+    ambiguous.rivals = vec![rival("dead-time", 0.3), rival("stale-hold", 0.2)];
+    assert_eq!(judge(&late, &ambiguous, 1.0).weight, Some(0.8));
 
     let effects = vec![truth("Axis", "backlash", "transmission"), truth("Belt", "belt-slip", "transmission")];
     let two = answer("2", Sort::OneOnEachOfTwo, Magnitude::Clear, effects);
