@@ -67,17 +67,19 @@ struct Delay {
 }
 
 /// The delays of all commands of a device.
-#[derive(Clone, Debug)]
-pub(super) struct Late {
+#[derive(Clone)]
+pub(super) struct Late<'a> {
     told: Vec<Told>,
     delays: Vec<Delay>,
+    /// Whether the answer is wanted now: then the delays are not looked for any further.
+    is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Late {
+impl<'a> Late<'a> {
     /// The delays of a device's commands as its recordings show them; `None` where one delay does as well, or none does better.
-    pub fn of(subject: &Subject, overrides: &Overrides) -> Option<Late> {
+    pub fn of(subject: &Subject, overrides: &Overrides, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Option<Late<'a>> {
         let told = told(subject);
-        let mut late = Late { delays: vec![Delay::default(); told.len()], told };
+        let mut late = Late { delays: vec![Delay::default(); told.len()], told, is_stopped };
         if late.told.len() < ENOUGH {
             return None;
         }
@@ -89,7 +91,7 @@ impl Late {
             same.try_same(subject, overrides, *port)?;
         }
         ports.iter().try_for_each(|port| late.come_nearer(subject, overrides, *port))?;
-        let none = Late { delays: vec![Delay::default(); late.told.len()], told: late.told.clone() };
+        let none = Late { delays: vec![Delay::default(); late.told.len()], ..late.clone() };
         let [own, same, none] = [&late, &same, &none].map(|late| late.cost(subject, overrides));
         if own? > WORTH_A_LOOK * none?.min(same?) {
             return None;
@@ -224,6 +226,9 @@ impl Late {
         port: usize,
         by: impl Fn(usize) -> f64,
     ) -> Option<Vec<f64>> {
+        if (self.is_stopped)() {
+            return None;
+        }
         let by = |at: usize| if self.told[at].port == port { by(at) } else { self.delays[at].by };
         let late = put_off(subject, &self.told, by);
         let mut prediction = late.predict(&[], overrides).ok()?;

@@ -71,7 +71,7 @@ impl Chance {
         let prediction = subject.predict(&[], overrides).ok()?;
         let mut other = subject.clone();
         if matches!(self.drawn, Drawn::Late) {
-            return Some(Late::of(subject, overrides)?.put_off(subject));
+            return Some(Late::of(subject, overrides, &|| false)?.put_off(subject));
         }
         for signal in &self.signals {
             match self.drawn {
@@ -101,8 +101,13 @@ const MOST_LEFT: f64 = 0.05;
 const ROUNDS: usize = 3;
 
 /// Looks for effects that draw in what `bare` leaves of the device at `place` of the study. `is_asked` says of an effect's id whether it is
-/// looked for.
-pub fn find(place: usize, study: &Study, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<Chance> {
+/// looked for, `is_stopped` whether the answer is wanted now.
+pub fn find(
+    place: usize,
+    study: &Study,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Chance> {
     let (subject, bare) = (&study.subjects[place], &study.bare[place]);
     if subject.is_taken_up_again() {
         return None;
@@ -113,8 +118,9 @@ pub fn find(place: usize, study: &Study, is_asked: &(dyn Fn(&str) -> bool + Sync
     let has_gap = before > THRESHOLD;
     let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
     // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
-    let found =
-        found.or_else(|| if has_gap && is_asked("sampling-jitter") { late(subject, bare, before) } else { None });
+    let found = found.or_else(|| {
+        if has_gap && is_asked("sampling-jitter") { late(subject, bare, before, is_stopped) } else { None }
+    });
     let found = found.or_else(|| if has_gap { by_reading() } else { None });
     found.or_else(|| if is_asked("noise") { scatter::find(place, study, has_gap) } else { None })
 }
@@ -183,8 +189,8 @@ fn taken_out(
 }
 
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
-fn late(subject: &Subject, bare: &Bare, before: f64) -> Option<Chance> {
-    let mut late = Late::of(subject, &bare.overrides)?;
+fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<Chance> {
+    let mut late = Late::of(subject, &bare.overrides, is_stopped)?;
     let anew = |late: &Late, bare: &Bare| {
         let mut other = late.put_off(subject);
         let nominal = other.predict(&[], &Overrides::none()).ok()?;

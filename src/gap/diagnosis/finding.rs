@@ -73,7 +73,7 @@ pub(super) fn find(
         let options = Options { is_asked: &is_asked, ..*options };
         return conclude(place, (subject, bare), None, study, &options).filter(explains_all);
     }
-    let chance = chance::find(place, study, options.is_asked).map(Arc::new);
+    let chance = chance::find(place, study, options.is_asked, options.is_stopped).map(Arc::new);
     conclude(place, (subject, bare), chance, study, options)
 }
 
