@@ -4,7 +4,8 @@
 //! recording: of a loose contact every sample is as predicted or 0, of lost reports it is as predicted or what was last reported.
 //! What was drawn is read off the recording sample by sample, taken out of it, and what is left is looked at as ever: with nothing
 //! left, the effect is the answer; else it stands beside what explains the rest. A sensor that scatters takes nothing out: its
-//! noise is in the floor already, and stands out of that of all others. A sensor that reads in steps draws nothing, but no slope leads to
+//! noise is in the floor already, and stands out of that of all others. Commands that jitter are put off by what each came late.
+//! A sensor that reads in steps draws nothing, but no slope leads to
 //! them either: they are read off in the same way, and the floor is theirs then.
 
 mod late;
