@@ -83,6 +83,15 @@ impl Axis {
         self.stages.is_nominal() && self.profile.has_ended()
     }
 
+    /// For how long at least it is away from its target, s. Behind a stage nobody knows.
+    pub fn away_for(&self) -> f64 {
+        if !self.stages.is_nominal() {
+            return 0.0;
+        }
+        let away = (self.profile.position() - self.target).abs() - self.tolerance - 2.0 * SAME_VALUE;
+        (away / self.limits.velocity - SAME_INSTANT_S).max(0.0)
+    }
+
     /// It holds so many parts.
     pub fn loaded(&mut self, parts: u32) {
         if self.stages.loaded(f64::from(parts), 0.0) {

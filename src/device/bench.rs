@@ -2,9 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use proptest::collection::vec;
+use proptest::prelude::*;
+
 use super::{Device, KINDS, Role, Surroundings, build};
 use crate::plant::{Parameter, ParameterValue, Parameters};
-use crate::prototype::kind::{KindDescriptor, ParameterDescriptor, ParameterType};
+use crate::prototype::kind::{KindDescriptor, ParameterDescriptor, ParameterType, PortDescriptor, PortType};
+use crate::signal_map::Direction::{Command, Report};
+use crate::signal_map::Kind::Edge;
 
 /// A device alone.
 pub struct Bench {
@@ -112,9 +117,52 @@ fn every_kind_stands_still_and_reports_every_port_it_has() {
         bench.device.advance(3.0);
         bench.device.sense(&Surroundings::default());
         for (port, (before, after)) in kind.ports.iter().zip(before.iter().zip(all(&mut bench))) {
-            let reported = port.direction == crate::signal_map::Direction::Report;
+            let reported = port.direction == Report;
             assert_eq!(reported, before.is_finite(), "{} {}", kind.name, port.name);
             assert!(!reported || *before == after, "{} {} moves by itself", kind.name, port.name);
+        }
+    }
+}
+
+/// A command of each kind's own: a share of its port's range, or of about what its defaults move by.
+fn drawn(port: &PortDescriptor, share: f64) -> f64 {
+    let (least, most) = port.range.unwrap_or((-1.5, 1.5));
+    match port.ty {
+        PortType::Real => (least + share * (most - least)).clamp(-1.5, 1.5),
+        PortType::Boolean => share.round(),
+        PortType::Integer => (least + share * (most - least)).clamp(-2.0, 3.0).round(),
+    }
+}
+
+proptest! {
+    /// What is told at random moments, and then at some instants before it may change.
+    #[test]
+    fn reports_that_step_stay_as_long_as_a_device_says(
+        kind in 0..KINDS.len(),
+        told in vec((any::<prop::sample::Index>(), 0.0..1.0, 0.0..0.7), 1..24),
+        sealed: bool,
+    ) {
+        let kind = KINDS[kind];
+        let set: &[_] = if kind.parameter("belt").is_some() { &[("belt", "Belt")] } else { &[] };
+        let mut bench = Bench::new(kind.name, set);
+        bench.seal(sealed);
+        let commands: Vec<_> = kind.ports.iter().enumerate().filter(|(_, port)| port.direction == Command).collect();
+        let steps: Vec<_> = kind.ports.iter().filter(|port| port.direction == Report && (port.kind == Edge || port.ty == PortType::Boolean)).collect();
+        for (which, share, seconds) in told {
+            if let Some((at, port)) = commands.get(which.index(commands.len().max(1))) {
+                bench.device.command(*at, drawn(port, share));
+            }
+            let all = |bench: &mut Bench| steps.iter().map(|port| bench.report(port.name)).collect::<Vec<_>>();
+            let before = all(&mut bench);
+            let least = bench.device.unchanged_for().min(3.0);
+            let there = bench.device.clone();
+            for part in [0.3, 0.9, 1.0 - 1e-9] {
+                bench.device = there.clone();
+                bench.device.advance(part * least);
+                prop_assert_eq!(&before, &all(&mut bench), "{} {} s after {} s", kind.name, part * least, least);
+            }
+            bench.device = there;
+            bench.device.advance(seconds);
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::device::driven::Driven;
 use crate::device::law::drive::DriveSettings;
 use crate::device::law::ramp::Slopes;
-use crate::device::law::{direction, moves};
+use crate::device::law::{STANDSTILL, direction, moves};
 use crate::device::path::Stages;
 use crate::device::table::{
     ACCELERATION, LEAST, LENGTH, LONGEST_M, LONGEST_S, STEEPEST, TIME, VELOCITY, choice, code, indicator, measure,
@@ -187,6 +187,10 @@ impl Device for Conveyor {
 
     fn rests(&self) -> bool {
         self.drive.rests()
+    }
+
+    fn unchanged_for(&self) -> f64 {
+        self.drive.unchanged_for(STANDSTILL)
     }
 
     fn boxed(&self) -> Box<dyn Device> {

@@ -1,7 +1,7 @@
 //! A cylinder with what stands in its signal path.
 
-use super::law::SAME_VALUE;
 use super::law::stroke::{Drive, Stroke, StrokeSettings};
+use super::law::{SAME_INSTANT_S, SAME_VALUE};
 use super::path::{Bounds, Moment, Motion, Stages};
 
 /// A cylinder, its piston and its rod. They part only where a stage of the transmission says so.
@@ -145,6 +145,21 @@ impl Cylinder {
     pub fn rests(&self) -> bool {
         let is_held = self.valve == Drive::Hold || self.stroke.steady(self.valve) <= 0.0;
         self.stages.is_nominal() && is_held
+    }
+
+    /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage nobody knows.
+    pub fn unchanged_for(&self) -> f64 {
+        let (way, speed) = match self.valve {
+            _ if !self.stages.is_nominal() => return 0.0,
+            Drive::Hold => return f64::INFINITY,
+            Drive::Extend => (1.0, self.settings.extend_speed),
+            Drive::Retract => (-1.0, self.settings.retract_speed),
+        };
+        let StrokeSettings { length, limit_tolerance, .. } = self.settings;
+        let ahead = [0.0, limit_tolerance, length - limit_tolerance, length];
+        let ahead = ahead.map(|place| way * (place - self.stroke.position()) + 2.0 * SAME_VALUE);
+        let next = ahead.into_iter().filter(|ahead| *ahead >= 0.0).fold(f64::INFINITY, f64::min);
+        ((next - 4.0 * SAME_VALUE) / speed - SAME_INSTANT_S).max(0.0)
     }
 
     /// It pushes so many parts.

@@ -54,6 +54,11 @@ impl Driven {
         self.stages.is_nominal() && self.drive.rests()
     }
 
+    /// For how long at least it stays ready or not, and moving or not, up to a speed of `standstill`; s. Behind a stage nobody knows.
+    pub fn unchanged_for(&self, standstill: f64) -> f64 {
+        if self.stages.is_nominal() { self.drive.unchanged_for(standstill) } else { 0.0 }
+    }
+
     /// Whether it is enabled and ready. What switches late behind it, it does not know.
     pub fn ready(&self) -> bool {
         let follows_at_once = !self.stages.is_nominal() && self.settings.ready_delay == 0.0;

@@ -109,6 +109,10 @@ impl Device for EncoderMotor {
         self.drive.rests()
     }
 
+    fn unchanged_for(&self) -> f64 {
+        self.drive.unchanged_for(0.0)
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

@@ -3,7 +3,7 @@
 use crate::device::conveyor::{self, belt, drive_settings};
 use crate::device::driven::Driven;
 use crate::device::law::encoder::Encoder;
-use crate::device::law::moves;
+use crate::device::law::{STANDSTILL, moves};
 use crate::device::path::Stages;
 use crate::device::table::{
     ANGULAR_ACCELERATION, ANGULAR_VELOCITY, LEAST, LENGTH, LONGEST_M, LONGEST_S, ONE, STEEPEST, TIME, VELOCITY,
@@ -151,6 +151,10 @@ impl Device for InverterConveyor {
         self.drive.state(visit);
         visit(self.belt.displacement);
         self.beams.iter().for_each(|cut| visit(f64::from(*cut)));
+    }
+
+    fn unchanged_for(&self) -> f64 {
+        self.drive.unchanged_for(STANDSTILL / self.reach)
     }
 
     fn boxed(&self) -> Box<dyn Device> {

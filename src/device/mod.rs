@@ -151,6 +151,12 @@ pub trait Device: Send {
         false
     }
 
+    /// For how long at least every report that steps, a BOOL or a code, stays what it is if it is told nothing and the world about it
+    /// stays, s; 0 where that is not known. Who looks for the instant of a step need not look before.
+    fn unchanged_for(&self) -> f64 {
+        if self.rests() { f64::INFINITY } else { 0.0 }
+    }
+
     /// Where effects inside the device are put: the stages of the component so called, or of the whole device. `None`
     /// where there is no such component, or nothing inside that an effect could act on.
     fn stages(&mut self, _component: Option<&str>) -> Option<&mut Stages> {

@@ -132,6 +132,10 @@ impl Device for Pusher {
         self.cylinder.rests()
     }
 
+    fn unchanged_for(&self) -> f64 {
+        self.cylinder.unchanged_for()
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

@@ -233,6 +233,11 @@ impl Device for SixAxisRobot {
         visit(f64::from(self.tool.grip));
     }
 
+    /// It has not arrived until its last axis has.
+    fn unchanged_for(&self) -> f64 {
+        if self.rests() { f64::INFINITY } else { self.axes.iter().map(Axis::away_for).fold(0.0, f64::max) }
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

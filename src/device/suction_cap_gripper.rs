@@ -120,6 +120,10 @@ impl Device for SuctionCapGripper {
         self.stages.is_nominal() && self.vacuum.rests()
     }
 
+    fn unchanged_for(&self) -> f64 {
+        if self.stages.is_nominal() { self.vacuum.unchanged_for() } else { 0.0 }
+    }
+
     fn boxed(&self) -> Box<dyn Device> {
         Box::new(self.clone())
     }

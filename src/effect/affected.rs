@@ -129,7 +129,7 @@ impl Affected {
     /// Moves by `span`, or to the first step of a report that is watched; returns how long that took.
     fn move_by(&mut self, span: f64) -> f64 {
         // A copy of a device takes as long as many steps of it.
-        if self.watched.is_empty() || self.inner.rests() {
+        if self.watched.is_empty() || self.inner.unchanged_for() > span {
             self.inner.advance(span);
             return span;
         }

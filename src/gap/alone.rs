@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::looks::Looks;
-use super::prediction::{Passing, Predicted, PredictedEdge};
+use super::prediction::{Passing, Predicted, PredictedEdge, Pulse};
 use super::restarts::{Restart, Restarts};
 use super::subject::Run;
 use super::tape::Tape;
@@ -268,7 +268,7 @@ impl View {
         let is_edge = watch.is_edge();
         let predicted = match watch.track {
             None => Predicted::Nothing,
-            Some(_) if is_edge => Predicted::Edges { initial: 0.0, edges: Vec::new() },
+            Some(_) if is_edge => Predicted::Edges { initial: 0.0, edges: Vec::new(), unseen: Vec::new() },
             Some(track) => Predicted::Level(Vec::with_capacity(track.values.len())),
         };
         let mut alone = alone.clone();
@@ -282,6 +282,11 @@ impl View {
     }
 
     fn becomes(&mut self, state: f64, at: f64, passing: Option<Passing>) {
+        if let Predicted::Edges { unseen, .. } = &mut self.predicted
+            && self.shown == Some(state)
+        {
+            unseen.push(Pulse { from: self.since, until: at, to: self.state });
+        }
         (self.state, self.since, self.passing) = (state, at, passing);
     }
 
@@ -290,7 +295,7 @@ impl View {
         match &mut self.predicted {
             Predicted::Nothing => {}
             Predicted::Level(values) => values.push(value),
-            Predicted::Edges { initial, edges } => {
+            Predicted::Edges { initial, edges, .. } => {
                 match self.shown {
                     None => *initial = value,
                     Some(shown) if shown != value => {

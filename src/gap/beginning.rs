@@ -91,7 +91,7 @@ impl<'a> State<'a> {
                 let pair = values.get(place).zip(self.track.values.get(place));
                 self.is_count || pair.is_none_or(|(a, b)| (a - b).abs() <= within)
             }
-            Predicted::Edges { initial, edges } => {
+            Predicted::Edges { initial, edges, .. } => {
                 let recorded = self.track.edges.iter().rfind(|edge| edge.index <= index);
                 let predicted = edges.iter().rfind(|edge| edge.index <= index);
                 recorded.map_or(self.track.initial, |edge| edge.to) == predicted.map_or(*initial, |edge| edge.to)

@@ -83,7 +83,7 @@ pub use locate::{FAR_BEYOND, Located, LocatedSignal, Location, THRESHOLD, eviden
 pub use mask::{MaskError, read_mask};
 pub use overrides::Overrides;
 pub use parts::Origin;
-pub use prediction::{Passing, Predicted, PredictedEdge, Prediction};
+pub use prediction::{Passing, Predicted, PredictedEdge, Prediction, Pulse};
 pub use recording::{Beat, OtherClock, Recording, RecordingError, Span, Stamped, TaskId};
 pub use restarts::WINDOW_S;
 pub use score::{EdgeScore, LevelScore, Score, SignalScore};

@@ -14,9 +14,20 @@ pub enum Predicted {
     Nothing,
     /// Before all rounding, SI, at each instant of its track from its first.
     Level(Vec<f64>),
-    /// The state at the track's first instant, and its changes that a look at each instant of the grid would show: a pulse
-    /// within a cycle is not among them.
-    Edges { initial: f64, edges: Vec<PredictedEdge> },
+    /// The state at the track's first instant, and its changes that a look at each instant of the grid would show; and the pulses
+    /// within a cycle, which none shows.
+    Edges { initial: f64, edges: Vec<PredictedEdge>, unseen: Vec<Pulse> },
+}
+
+/// A state that came and went between two looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// When it came, s.
+    pub from: f64,
+    /// When the state before was back, s.
+    pub until: f64,
+    /// What the signal was in between.
+    pub to: f64,
 }
 
 /// A change of a predicted state.
@@ -56,7 +67,10 @@ impl Predicted {
                 let squares: f64 = one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum();
                 (squares / one.len().max(1) as f64).sqrt() > level
             }
-            (Predicted::Edges { initial, edges }, Predicted::Edges { initial: other_initial, edges: others }) => {
+            (
+                Predicted::Edges { initial, edges, .. },
+                Predicted::Edges { initial: other_initial, edges: others, .. },
+            ) => {
                 let is_another =
                     |(a, b): (&PredictedEdge, &PredictedEdge)| a.to != b.to || (a.at - b.at).abs() > SAME_EDGE_S;
                 initial != other_initial || edges.len() != others.len() || edges.iter().zip(others).any(is_another)
@@ -72,7 +86,7 @@ mod tests {
 
     fn state(initial: f64, edges: &[(f64, f64)]) -> Predicted {
         let edge = |(at, to): &(f64, f64)| PredictedEdge { at: *at, index: 0, to: *to, part: None };
-        Predicted::Edges { initial, edges: edges.iter().map(edge).collect() }
+        Predicted::Edges { initial, edges: edges.iter().map(edge).collect(), unseen: Vec::new() }
     }
 
     #[test]

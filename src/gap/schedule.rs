@@ -91,7 +91,7 @@ impl Course {
             }
             dark = dark.max(to);
         }
-        Predicted::Edges { initial: 0.0, edges }
+        Predicted::Edges { initial: 0.0, edges, unseen: Vec::new() }
     }
 
     /// When a part is no more on the belt, s.

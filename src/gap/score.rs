@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::filter::MOST_FILTER_S;
-use super::prediction::PredictedEdge;
+use super::prediction::{PredictedEdge, Pulse};
 use super::samples::{Sample, Samples};
 use super::shifts::shifted;
 use super::tolerance::Weighed;
@@ -197,16 +197,18 @@ impl SignalScore {
     }
 
     /// An edge whose `predicted` changes stand for those of its track; `sigma` is how far a sensor may be off in time, s.
-    /// `shifts` are those of the parts that pass.
+    /// `shifts` are those of the parts that pass, `unseen` pulses that no look of the prediction shows.
     pub(super) fn edges(
         place: (usize, usize),
         track: &Track,
-        predicted: &[PredictedEdge],
+        (predicted, unseen): (&[PredictedEdge], &[Pulse]),
         shifts: &[f64],
         sigma: f64,
     ) -> Self {
         let mut pairs = pair(track, predicted, sigma);
         leave_out_pulses(&mut pairs, predicted, track, sigma);
+        let with_pulses = pair_with_pulses(&mut pairs, (predicted, unseen), track, sigma);
+        let predicted = with_pulses.as_deref().unwrap_or(predicted);
         let kept = pairs.iter().map(|pair| edge(track, predicted, shifts, pair, sigma));
         let edges: Vec<EdgeScore> = kept.flatten().collect();
         let errors: Vec<f64> =
@@ -258,6 +260,40 @@ fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge], track: &
             at += 1;
         }
     }
+}
+
+/// Recorded pulses of a single report that nothing was predicted for, each paired with what the prediction has between two looks, where that is
+/// likelier. All predicted edges, those of such pulses behind the others; `None` where there are none.
+fn pair_with_pulses(
+    pairs: &mut [Pair],
+    (predicted, unseen): (&[PredictedEdge], &[Pulse]),
+    track: &Track,
+    sigma: f64,
+) -> Option<Vec<PredictedEdge>> {
+    let mut all = None;
+    for at in 1..pairs.len().max(1) {
+        let alone = |pair: &Pair| pair.recorded.filter(|_| pair.predicted.is_none());
+        let Some((on, off)) = alone(&pairs[at - 1]).zip(alone(&pairs[at])) else { continue };
+        let (came, went) = (track.edges[on], track.edges[off]);
+        if off != on + 1 || went.index != came.index + 1 {
+            continue;
+        }
+        let edges = |pulse: &Pulse| {
+            let edge = |at: f64, index: usize, to: f64| PredictedEdge { at, index, to, part: None };
+            [edge(pulse.from, came.index, came.to), edge(pulse.until, went.index, went.to)]
+        };
+        let cost = |[on, off]: &[PredictedEdge; 2]| {
+            interval_cost(track, on.index, on, sigma) + interval_cost(track, off.index, off, sigma)
+        };
+        let same = unseen.iter().filter(|pulse| pulse.to == came.to).map(edges);
+        let likeliest = same.map(|edges| (cost(&edges), edges)).min_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, edges)) = likeliest.filter(|(cost, _)| *cost < 2.0 * cost::unmatched()) {
+            let all = all.get_or_insert_with(|| predicted.to_vec());
+            (pairs[at - 1].predicted, pairs[at].predicted) = (Some(all.len()), Some(all.len() + 1));
+            all.extend(edges);
+        }
+    }
+    all
 }
 
 /// One pair; `None` where it lies in a span without evidence, or is one that was played back.
@@ -316,24 +352,30 @@ fn edge_floor(cycle: f64, sigma: f64, at: f64) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gap::track::Edge;
 
     fn alone(at: usize) -> Pair {
         Pair { recorded: None, predicted: Some(at) }
     }
 
-    /// What is left of predicted pulses, on and off in turn, that nobody recorded in a cycle of 50 ms; a sensor is off by 10 µs.
-    fn left_of(edges: &[f64]) -> Vec<usize> {
+    /// A flag's track in a cycle of 50 ms, with what was recorded of it.
+    fn track(edges: Vec<Edge>) -> Track {
         let grid = std::sync::Arc::new(crate::gap::Grid::of_steps(0.05, 60.0));
-        let track = Track {
+        Track {
             grid,
             first: 0,
             values: Vec::new(),
             initial: 0.0,
-            edges: Vec::new(),
+            edges,
             origins: Vec::new(),
             tolerance: 0.0,
             blind: Vec::new(),
-        };
+        }
+    }
+
+    /// What is left of predicted pulses, on and off in turn, that nobody recorded in a cycle of 50 ms; a sensor is off by 10 µs.
+    fn left_of(edges: &[f64]) -> Vec<usize> {
+        let track = track(Vec::new());
         let index = |at: f64| track.grid.instants.partition_point(|instant| *instant < at);
         let to = |place: usize| f64::from(u8::from(place.is_multiple_of(2)));
         let edge = |(place, at): (usize, &f64)| PredictedEdge { at: *at, to: to(place), index: index(*at), part: None };
@@ -353,5 +395,25 @@ mod tests {
     #[test]
     fn a_pulse_that_one_report_may_miss_is_no_difference() {
         assert_eq!(left_of(&[0.99997, 1.04, 1.96, 2.00003, 2.996, 3.03, 3.97, 4.03, 4.96, 5.07]), [6, 7, 8, 9]);
+    }
+
+    /// The first report shows one that the model has from 2 ms after it to 30 ms after, the next one that it has from 30 µs after to 20 ms
+    /// after: of the second the sensor of 10 µs, which a report's age adds nothing to, is the likelier cause.
+    #[test]
+    fn a_pulse_that_one_report_showed_may_lie_between_two_of_a_prediction() {
+        let recorded = [(20, 1.0), (21, 0.0), (40, 1.0), (41, 0.0), (60, 1.0), (62, 0.0)];
+        let track = track(recorded.map(|(index, to)| Edge { index, to }).into());
+        let at = |index: usize| track.grid.instants[index];
+        let pulse = |from: f64, until: f64| Pulse { from, until, to: 1.0 };
+        let unseen = [
+            pulse(at(20) + 2e-3, at(20) + 3e-2),
+            pulse(at(40) + 3e-5, at(40) + 2e-2),
+            pulse(at(60) + 1e-5, at(60) + 2e-2),
+        ];
+        let score = SignalScore::edges((0, 0), &track, (&[], &unseen), &[], 1e-5);
+        assert_eq!(score.missing(), 4);
+        assert_eq!(score.edges.len(), recorded.len());
+        assert!(score.edges[2].predicted.is_some() && score.edges[2].cost < 16.0, "{:?}", score.edges[2]);
+        assert!(score.edges[3].cost < 1e-3, "{:?}", score.edges[3]);
     }
 }

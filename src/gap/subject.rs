@@ -235,8 +235,11 @@ impl Subject {
                     alone::run(Alone::new(device.boxed(), self.kind.ports.len(), script), run, &watches);
                 for (predicted, watch) in predicted.iter_mut().zip(&watches) {
                     // By the clock of the reports.
-                    if let Predicted::Edges { edges, .. } = predicted {
+                    if let Predicted::Edges { edges, unseen, .. } = predicted {
                         edges.iter_mut().for_each(|edge| edge.at -= watch.lead);
+                        unseen.iter_mut().for_each(|pulse| {
+                            (pulse.from, pulse.until) = (pulse.from - watch.lead, pulse.until - watch.lead);
+                        });
                     }
                 }
                 predicted
@@ -314,8 +317,9 @@ impl Subject {
                     Predicted::Level(values) => {
                         Some(SignalScore::level((signal, at), track, values, &run.weighed(signal), info.is_count))
                     }
-                    Predicted::Edges { edges, .. } => {
-                        Some(SignalScore::edges((signal, at), track, edges, &shifts, run.edge_sigmas[signal]))
+                    Predicted::Edges { edges, unseen, .. } => {
+                        let sigma = run.edge_sigmas[signal];
+                        Some(SignalScore::edges((signal, at), track, (edges, unseen), &shifts, sigma))
                     }
                 });
             }
@@ -338,9 +342,9 @@ impl Subject {
                         let samples = Samples::new(track, values, &weighed, info.is_count);
                         samples.each(|sample| residuals.push(residual(sample.cost, sample.difference)));
                     }
-                    (Some(track), Predicted::Edges { edges, .. }) => {
+                    (Some(track), Predicted::Edges { edges, unseen, .. }) => {
                         let sigma = run.edge_sigmas[signal];
-                        let score = SignalScore::edges((signal, at), track, edges, &shifts[at], sigma);
+                        let score = SignalScore::edges((signal, at), track, (edges, unseen), &shifts[at], sigma);
                         score.add_residuals(&mut residuals);
                     }
                     _ => {}

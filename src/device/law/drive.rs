@@ -1,7 +1,7 @@
 //! A drive that follows a speed on a ramp, as inverters do: enabling, the ramp, coasting.
 
-use super::SAME_INSTANT_S;
 use super::ramp::{Ramp, Slopes};
+use super::{SAME_INSTANT_S, SAME_VALUE};
 
 /// What is set about a drive; SI units, linear or rotary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +68,20 @@ impl Drive {
     pub fn rests(&self) -> bool {
         let is_content = if self.ready() { self.reference == 0.0 } else { !self.enabled };
         self.ramp.velocity == 0.0 && is_content
+    }
+
+    /// For how long at least it stays ready or not, and moving or not, if no command comes; up to `standstill` it does not count as moving; s.
+    pub fn unchanged_for(&self, standstill: f64) -> f64 {
+        if self.enabled && !self.ready() {
+            return 0.0;
+        }
+        let (target, slopes) =
+            if self.ready() { (self.reference, self.settings.slopes) } else { (0.0, self.run_down_slopes()) };
+        let (speed, surely) = (self.ramp.velocity, standstill + 2.0 * SAME_VALUE);
+        if speed == target || (speed * target > 0.0 && speed.abs().min(target.abs()) > surely) {
+            return f64::INFINITY;
+        }
+        ((speed.abs() - surely) / slopes.falling - SAME_INSTANT_S).max(0.0)
     }
 
     /// Present speed.

@@ -95,6 +95,13 @@ impl Vacuum {
         self.held == self.holds() && (self.blow || !self.sealed || is_settled)
     }
 
+    /// For how long at least vacuum holds or does not, as it does now, if nothing is switched and the seal stays, s.
+    pub fn unchanged_for(&self) -> f64 {
+        let ends = [self.build_up_time, self.build_up_time + self.hold_time, self.release_time];
+        let ahead = ends.map(|end| end - self.elapsed + 2.0 * SAME_INSTANT_S).into_iter().filter(|ahead| *ahead >= 0.0);
+        (ahead.fold(f64::INFINITY, f64::min) - 4.0 * SAME_INSTANT_S).max(0.0)
+    }
+
     /// Moves by `seconds`.
     pub fn advance(&mut self, seconds: f64) {
         if seconds > 0.0 {

@@ -16,6 +16,9 @@ const SHORTEST_S: f64 = 5e-4;
 const ALL_S: f64 = 5e-3;
 /// How many samples are looked at to begin with, of the faster half.
 const MOST_SAMPLES: usize = 120;
+/// Every so many of them say whether a period is worth a look at all: where it takes away less than such a part of what the best one does.
+const FEWER: usize = 4;
+const AT_A_GLANCE: f64 = 0.3;
 /// How much of the reports' lateness must show, as a square in standard deviations.
 const SHOWS: f64 = 50.0;
 /// Between which shares of what a period would do the recording must hold it, and which share of the error it must take away that no constant
@@ -95,11 +98,14 @@ fn period_of(ways: &[Way], mut samples: Vec<Late>, longest: f64) -> Option<f64> 
     // Of the faster half every so many, from all over the recording: what comes in bursts holds many a period.
     let every = (samples.len() / 2 / MOST_SAMPLES).max(1);
     let few: Vec<Late> = samples.iter().step_by(every).take(MOST_SAMPLES).copied().collect();
+    let fewer: Vec<Late> = few.iter().step_by(FEWER).copied().collect();
     let mut best = (0.0, 0.0);
     let mut period = (1.7 * late).clamp(SHORTEST_S, ALL_S);
     while period < longest {
-        let share = share(ways, &few, period);
-        best = if share > best.0 { (share, period) } else { best };
+        if share(ways, &fewer, period) > AT_A_GLANCE * best.0 {
+            let share = share(ways, &few, period);
+            best = if share > best.0 { (share, period) } else { best };
+        }
         period += PART * period * period / end;
     }
     let (mut known, mut step) = (best.1, PART * best.1 * best.1 / end);

@@ -86,7 +86,7 @@ impl Reading {
                     let half = if subject.signals[signal].is_count { 0.5 } else { 0.0 };
                     all.level(track, values, half, &run.floors[signal], law)?;
                 }
-                Predicted::Edges { initial, edges } if beam_of(&subject.signals[signal]).is_none() => {
+                Predicted::Edges { initial, edges, .. } if beam_of(&subject.signals[signal]).is_none() => {
                     let sigma = run.edge_sigmas[signal];
                     let edges: Vec<(f64, usize, f64)> =
                         edges.iter().map(|edge| (edge.at, edge.index, edge.to)).collect();

@@ -173,7 +173,7 @@ fn switching(initial: f64, edges: impl Iterator<Item = (f64, f64)>) -> Switching
 }
 
 fn predicted_switching(predicted: &Predicted) -> Option<Switching> {
-    let Predicted::Edges { initial, edges } = predicted else { return None };
+    let Predicted::Edges { initial, edges, .. } = predicted else { return None };
     Some(switching(*initial, edges.iter().map(|edge: &PredictedEdge| (edge.at, edge.to))))
 }
 
