@@ -188,6 +188,7 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
             (_, Some(looked)) => (looked, Next::Sample),
         };
         if at > alone.now {
+            // A speed that passes 0 may bring a state there and back.
             let before = looks.signs(&alone.reports);
             let is_smooth = alone.advance_to(at);
             if has_edges {
@@ -195,7 +196,7 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
             }
             let is_still = is_smooth && views.iter().all(|view| view.is_as_in(&alone));
             if let Some(tape) = &mut tape {
-                if is_still && (!looks.leaps() || before == looks.signs(&alone.reports)) {
+                if is_still && (!has_edges || before == looks.signs(&alone.reports)) {
                     tape.advanced(at, &alone);
                 } else {
                     alone = tape.rewound(run);
@@ -309,9 +310,10 @@ impl View {
     }
 }
 
-/// Finds when, in the legs that end now, states became what they are.
+/// Finds when, in the legs that end now, states became what they are, and which were another in between.
 fn note_edges(views: &mut [View], legs: &[Leg], alone: &mut Alone) {
     alone.look();
+    legs.iter().for_each(|leg| note_pulses(views, leg, alone));
     for view in views.iter_mut().filter(|view| !view.is_as_in(alone)) {
         let state = alone.reports[view.port];
         let mut reports = vec![0.0; alone.reports.len()];
@@ -322,6 +324,39 @@ fn note_edges(views: &mut [View], legs: &[Leg], alone: &mut Alone) {
         let at = legs.iter().zip(legs.iter().skip(1).map(Some).chain([None]));
         let at = at.filter_map(|(leg, next)| becomes_in(leg, next, &mut is_there)).next();
         view.becomes(state, at.unwrap_or(alone.now), alone.passing(view.beam));
+    }
+}
+
+/// Finds the states that are as they were, and were not where a level passes 0 in a leg.
+fn note_pulses(views: &mut [View], leg: &Leg, alone: &Alone) {
+    let mut look = vec![0.0; alone.reports.len()];
+    let mut reports = |device: &mut Box<dyn Device>| {
+        device.report(&mut look);
+        look.clone()
+    };
+    let mut end = leg.device.clone();
+    end.advance(leg.to - leg.from);
+    let (first, last) = (reports(&mut leg.device.clone()), reports(&mut end));
+    let levels = views.iter().filter(|view| !view.is_edge).map(|view| view.port);
+    let passing: Vec<usize> = levels.filter(|port| first[*port] * last[*port] < 0.0).collect();
+    for level in passing {
+        let mut is_beyond = |device: &mut Box<dyn Device>| reports(device)[level] * last[level] > 0.0;
+        let Some(at) = becomes_in(leg, None, &mut is_beyond) else { continue };
+        let mut there = leg.device.clone();
+        there.advance(at - leg.from);
+        let passed = reports(&mut there);
+        for view in views.iter_mut().filter(|view| view.is_edge && view.is_as_in(alone)) {
+            let (port, to) = (view.port, passed[view.port]);
+            let Predicted::Edges { unseen, .. } = &mut view.predicted else { continue };
+            if to == view.state || view.shown != Some(view.state) {
+                continue;
+            }
+            let before = Leg { device: leg.device.clone(), from: leg.from, to: at, until: at };
+            let after = Leg { device: there.clone(), from: at, to: leg.to, until: leg.to };
+            let from = becomes_in(&before, None, &mut |device| reports(device)[port] == to);
+            let until = becomes_in(&after, None, &mut |device| reports(device)[port] != to);
+            unseen.extend(from.zip(until).map(|(from, until)| Pulse { from, until, to }));
+        }
     }
 }
 

@@ -69,6 +69,8 @@ struct Seen {
     stays: bool,
     length: Option<f64>,
     part: Option<usize>,
+    /// The place of the cut that this one goes on with: the belt turned, and brought back what had left the beam.
+    again: Option<usize>,
 }
 
 /// What the barriers of a belt saw, as a script and as the origins of their edges. `travel` gives the belt's nominal way at an
@@ -87,6 +89,7 @@ pub(super) fn assign(
         play_initial(beam, track, &mut script);
     }
     seen.sort_by(|a, b| a.from.total_cmp(&b.from));
+    find_again(geometry, &mut seen, travel);
     let parts = name_parts(geometry, &mut seen, travel);
     let reliable = is_reliable(&seen, parts);
     for (at, cut) in seen.iter().enumerate() {
@@ -136,10 +139,65 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
         let is_seen = geometry.beams[beam].is_some();
         if is_seen {
             let stays = fall.is_none() && (travel(last) - start).abs() > STAYS * longest;
-            cuts.push(Seen { beam, rise, fall, start, from, to, way, stays, length: None, part: None });
+            cuts.push(Seen { beam, rise, fall, start, from, to, way, stays, length: None, part: None, again: None });
         }
     }
     cuts
+}
+
+/// A part that left a beam, and where it is from there.
+struct Left {
+    /// The place of its first cut of that beam.
+    first: usize,
+    /// When it left, s.
+    at: f64,
+    /// How far it had gone since it came, m, as it came.
+    gone: f64,
+    /// How long it is, m; as the longest, where it never passed the beam.
+    length: f64,
+}
+
+/// Finds the cuts of parts that the belt brings back to a beam which they had left.
+fn find_again(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f64) {
+    let longest = geometry.lengths.iter().copied().fold(0.0, f64::max);
+    for beam in 0..2 {
+        let mut left: Vec<Left> = Vec::new();
+        for at in (0..seen.len()).filter(|at| seen[*at].beam == beam).collect::<Vec<_>>() {
+            let cut = seen[at];
+            let back = left.iter().rposition(|left| comes_again(geometry, &seen[left.first], left, &cut, travel));
+            let before = back.map(|place| left.remove(place));
+            seen[at].again = before.as_ref().map(|left| left.first);
+            let first = before.as_ref().map_or(at, |left| left.first);
+            if cut.fall.is_none() {
+                continue;
+            }
+            let gone = seen[first].way * (travel(cut.to) - seen[first].start);
+            let fed = geometry.fed.filter(|(fed, _)| *fed == beam && seen[first].way > 0.0).map(|(_, length)| length);
+            let known = before.map(|left| left.length).or(fed);
+            let length = known.unwrap_or(if gone < GATE_M { longest } else { gone });
+            left.push(Left { first, at: cut.to, gone, length });
+        }
+    }
+}
+
+/// Whether a part that left a beam is what cuts it anew: the belt has gone back as far as it had gone on, and the part did not leave it
+/// meanwhile.
+fn comes_again(geometry: &Geometry, first: &Seen, left: &Left, cut: &Seen, travel: &dyn Fn(f64) -> f64) -> bool {
+    const STEP_S: f64 = 0.02;
+    let is_past = left.gone > 0.5 * left.length;
+    let comes_back = if is_past { cut.way != first.way } else { cut.way == first.way };
+    let gone = |at: f64| first.way * (travel(at) - first.start);
+    if !comes_back || (gone(cut.from) - left.gone).abs() > GATE_M {
+        return false;
+    }
+    let Some(front) = geometry.beams[first.beam] else { return false };
+    let stays_on = |at: f64| {
+        let centre = front + first.way * (gone(at) - 0.5 * left.length);
+        let [start, end] = &geometry.lane.ends;
+        !(*start == End::Open && centre < 0.0 || *end == End::Open && centre > geometry.lane.length)
+    };
+    let steps = ((cut.from - left.at) / STEP_S).ceil().max(1.0);
+    (0..=steps as u32).all(|step| stays_on(left.at + (cut.from - left.at) * f64::from(step) / steps))
 }
 
 /// By which factors a belt may carry less or more than nominally; the nearest to 1 first.
@@ -160,6 +218,7 @@ fn name_parts(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f6
     }
     let mut parts = 0;
     for at in 0..seen.len() {
+        seen[at].part = seen[at].part.or(seen[at].again.and_then(|first| seen[first].part));
         if seen[at].part.is_none() {
             seen[at].part = Some(parts);
             parts += 1;
@@ -169,6 +228,13 @@ fn name_parts(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f6
         }
     }
     give_lengths(geometry, seen, parts, travel);
+    // What comes again to a beam out of which other hands took it is another part.
+    for at in 0..seen.len() {
+        if seen[at].again.is_some_and(|first| seen[first].length.is_none()) {
+            (seen[at].again, seen[at].part, seen[at].length) = (None, Some(parts), None);
+            parts += 1;
+        }
+    }
     parts
 }
 
@@ -178,12 +244,14 @@ fn link(geometry: &Geometry, seen: &[Seen], factor: f64) -> Vec<Option<usize>> {
     let mut is_taken = vec![false; seen.len()];
     for at in 0..seen.len() {
         let first = seen[at];
-        let between = distance(geometry, first.beam, first.way).filter(|way| *way > 0.0 && !is_taken[at]);
+        let is_free = !is_taken[at] && first.again.is_none();
+        let between = distance(geometry, first.beam, first.way).filter(|way| *way > 0.0 && is_free);
         let Some(between) = between else { continue };
         let expected = first.start + first.way * between / factor;
         let gate = GATE_M + GATE * between;
         let comes = |cut: &Seen| {
             cut.beam != first.beam
+                && cut.again.is_none()
                 && cut.from > first.from
                 && cut.way == first.way
                 && (cut.start - expected).abs() <= gate
@@ -209,7 +277,9 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
     let known: Vec<Option<f64>> = (0..parts).map(|part| known_length(geometry, seen, part)).collect();
     let by_hands = |cut: &Seen| geometry.hands[cut.beam].iter().any(|(from, to)| (*from..=*to).contains(&cut.to));
     let by_belt = |cut: &Seen| cut.fall.is_some() && !by_hands(cut);
-    for cut in seen.iter().filter(|cut| by_belt(cut)) {
+    // What the belt brings again, or takes back the way it came, says nothing of a length.
+    let turns_back = |cut: &Seen| cut.fall.is_some() && cut.way * (travel(cut.to) - cut.start) < GATE_M;
+    for cut in seen.iter().filter(|cut| by_belt(cut) && cut.again.is_none() && !turns_back(cut)) {
         let Some(part) = cut.part.filter(|part| *part < parts) else { continue };
         let (best, known) = (&mut best[part], &known[part]);
         let off = |length: f64| misses(geometry, cut, length, travel);
@@ -223,8 +293,9 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
         }
     }
     for cut in seen.iter_mut().filter(|cut| by_belt(cut) || cut.stays) {
-        let length = cut.part.and_then(|part| best[part]).map(|(_, length)| length);
-        if cut.stays {
+        let found = cut.part.and_then(|part| best.get(part).copied().flatten()).map(|(_, length)| length);
+        let length = found.or(cut.part.and_then(|part| known.get(part).copied().flatten()).filter(|_| turns_back(cut)));
+        if cut.stays || cut.again.is_some() || turns_back(cut) {
             cut.length = length;
             continue;
         }
@@ -280,7 +351,7 @@ fn is_reliable(seen: &[Seen], parts: usize) -> bool {
     });
     let mut beams = vec![0; parts];
     let mut could = vec![false; parts];
-    for cut in seen {
+    for cut in seen.iter().filter(|cut| cut.again.is_none()) {
         let part = cut.part.unwrap_or(0);
         beams[part] += 1;
         could[part] |= cut.from <= until[1 - cut.beam];
@@ -294,7 +365,8 @@ fn is_reliable(seen: &[Seen], parts: usize) -> bool {
 /// What one cut is in the script: moved with the belt from the part's first edge, or played back.
 fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, script: &mut Script) {
     let cut = seen[at];
-    let Some(part) = cut.part else { return };
+    // What comes again goes on with the cut that it came with first.
+    let Some(part) = cut.part.filter(|_| cut.again.is_none()) else { return };
     let first = seen[..at].iter().find(|other| other.part == cut.part).copied().unwrap_or(cut);
     let ahead = if first.beam == cut.beam { 0.0 } else { (cut.start - first.start).abs() };
     let ahead = match distance(geometry, first.beam, first.way) {
@@ -308,7 +380,7 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
     let own = Cut { part, beam: cut.beam, from: first.from, ahead, front, way: first.way, length, is_known, taken };
     script.cuts.push(own);
     // One that should have come to the other beam and did not is missed there.
-    let is_alone = !seen.iter().enumerate().any(|(other, of)| other != at && of.part == cut.part);
+    let is_alone = !seen.iter().any(|of| of.beam != cut.beam && of.part == cut.part);
     if let (true, true, Some(length), Some(between)) =
         (is_alone, reliable, cut.length, distance(geometry, cut.beam, cut.way))
         && between > 0.0
@@ -362,7 +434,8 @@ mod tests {
 
     /// The same that goes this way.
     fn of_rig_that(travel: &dyn Fn(f64) -> f64, a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
-        assign(&rig(), [Some(&barrier(a)), Some(&barrier(b))], travel)
+        let lane = Arc::new(Lane { length: 2.0, shares: false, ends: [End::Open, End::Open] });
+        assign(&Geometry { lane, ..rig() }, [Some(&barrier(a)), Some(&barrier(b))], travel)
     }
 
     #[test]
@@ -376,6 +449,26 @@ mod tests {
         assert!(script.cuts.iter().all(|cut| cut.length == 0.3 && cut.taken.is_none()));
     }
 
+    /// Out of the beam the way that it came and in again; and so far back that it leaves the belt before another comes.
+    #[test]
+    fn a_part_that_a_belt_takes_back_is_the_same_until_it_has_left() {
+        let travel = |turns: f64| {
+            move |at: f64| match at {
+                at if at < 1.31 => 0.5 * at,
+                at if at < turns => 0.655 - 0.5 * (at - 1.31),
+                at => 0.655 - 0.5 * (turns - 1.31) + 0.5 * (at - turns),
+            }
+        };
+        let (script, origins) = of_rig_that(&travel(1.71), &[(1.01, 1.61), (1.81, 2.41)], &[(4.61, 5.21)]);
+        assert_eq!(origins, [vec![Origin::Part(0); 4], vec![Origin::Part(0); 2]]);
+        assert_eq!(script.cuts.len(), 2);
+        assert!(script.cuts.iter().all(|cut| cut.length == 0.3 && cut.taken.is_none()), "{:?}", script.cuts);
+        let (script, origins) = of_rig_that(&travel(2.31), &[(1.01, 1.61), (3.01, 3.61)], &[(5.81, 6.41)]);
+        assert_eq!(origins[0][2..], [Origin::Part(1); 2]);
+        assert_eq!(origins[1], [Origin::Part(1); 2]);
+        assert_eq!(script.cuts.len(), 3);
+    }
+
     #[test]
     fn a_part_that_passes_a_barrier_again_came_there_the_first_time() {
         // To and fro at 0.5 m/s: it turns at 4.5 s and at 5.4 s. The first time barrier B sees it 10 mm late.
@@ -384,9 +477,10 @@ mod tests {
             at if at < 5.4 => 2.25 - 0.5 * (at - 4.5),
             at => 1.8 + 0.5 * (at - 5.4),
         };
-        let (_, origins) = of_rig_that(&travel, &[(1.01, 1.61)], &[(3.83, 4.41), (4.59, 5.19), (5.61, 6.21)]);
+        let (script, origins) = of_rig_that(&travel, &[(1.01, 1.61)], &[(3.83, 4.41), (4.59, 5.19), (5.61, 6.21)]);
         assert_eq!(origins[0], [Origin::Part(0); 2]);
-        assert_eq!(origins[1], [0, 0, 1, 1, 2, 2].map(Origin::Part));
+        assert_eq!(origins[1], [Origin::Part(0); 6]);
+        assert_eq!(script.cuts.len(), 2);
     }
 
     #[test]

@@ -208,8 +208,13 @@ impl SignalScore {
         let mut pairs = pair(track, predicted, sigma);
         leave_out_pulses(&mut pairs, predicted, track, sigma);
         let with_pulses = pair_with_pulses(&mut pairs, (predicted, unseen), track, sigma);
+        let sigma_of = |pair: &Pair| match pair.predicted {
+            Some(at) if at >= predicted.len() => sigma.hypot(PULSE_OFF_S),
+            _ => sigma,
+        };
+        let sigmas: Vec<f64> = pairs.iter().map(sigma_of).collect();
         let predicted = with_pulses.as_deref().unwrap_or(predicted);
-        let kept = pairs.iter().map(|pair| edge(track, predicted, shifts, pair, sigma));
+        let kept = pairs.iter().zip(&sigmas).map(|(pair, sigma)| edge(track, predicted, shifts, pair, *sigma));
         let edges: Vec<EdgeScore> = kept.flatten().collect();
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
@@ -262,6 +267,10 @@ fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge], track: &
     }
 }
 
+/// How far off, standard deviation, s, a pulse may be predicted that one report alone shows: a speed that passes 0 does so sooner by as much
+/// as its slope is known no better, a millisecond of half a second.
+const PULSE_OFF_S: f64 = 1.5e-3;
+
 /// Recorded pulses of a single report that nothing was predicted for, each paired with what the prediction has between two looks, where that is
 /// likelier. All predicted edges, those of such pulses behind the others; `None` where there are none.
 fn pair_with_pulses(
@@ -283,11 +292,12 @@ fn pair_with_pulses(
             [edge(pulse.from, came.index, came.to), edge(pulse.until, went.index, went.to)]
         };
         let cost = |[on, off]: &[PredictedEdge; 2]| {
+            let sigma = sigma.hypot(PULSE_OFF_S);
             interval_cost(track, on.index, on, sigma) + interval_cost(track, off.index, off, sigma)
         };
         let same = unseen.iter().filter(|pulse| pulse.to == came.to).map(edges);
         let likeliest = same.map(|edges| (cost(&edges), edges)).min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, edges)) = likeliest.filter(|(cost, _)| *cost < 2.0 * cost::unmatched()) {
+        if let Some((_, edges)) = likeliest.filter(|(cost, _)| *cost < cost::unmatched()) {
             let all = all.get_or_insert_with(|| predicted.to_vec());
             (pairs[at - 1].predicted, pairs[at].predicted) = (Some(all.len()), Some(all.len() + 1));
             all.extend(edges);
@@ -397,8 +407,8 @@ mod tests {
         assert_eq!(left_of(&[0.99997, 1.04, 1.96, 2.00003, 2.996, 3.03, 3.97, 4.03, 4.96, 5.07]), [6, 7, 8, 9]);
     }
 
-    /// The first report shows one that the model has from 2 ms after it to 30 ms after, the next one that it has from 30 µs after to 20 ms
-    /// after: of the second the sensor of 10 µs, which a report's age adds nothing to, is the likelier cause.
+    /// The first report shows one that the model has from 12 ms after it to 30 ms after, the next one that it has from 1 ms after to 20 ms
+    /// after, and two one that it has after the first of them.
     #[test]
     fn a_pulse_that_one_report_showed_may_lie_between_two_of_a_prediction() {
         let recorded = [(20, 1.0), (21, 0.0), (40, 1.0), (41, 0.0), (60, 1.0), (62, 0.0)];
@@ -406,8 +416,8 @@ mod tests {
         let at = |index: usize| track.grid.instants[index];
         let pulse = |from: f64, until: f64| Pulse { from, until, to: 1.0 };
         let unseen = [
-            pulse(at(20) + 2e-3, at(20) + 3e-2),
-            pulse(at(40) + 3e-5, at(40) + 2e-2),
+            pulse(at(20) + 1.2e-2, at(20) + 3e-2),
+            pulse(at(40) + 1e-3, at(40) + 2e-2),
             pulse(at(60) + 1e-5, at(60) + 2e-2),
         ];
         let score = SignalScore::edges((0, 0), &track, (&[], &unseen), &[], 1e-5);

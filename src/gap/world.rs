@@ -258,8 +258,9 @@ impl World {
         let (riders, lane) = (&mut self.riders, &self.script.lane);
         self.active.retain(|cut| {
             let rider = riders.iter().find(|rider| rider.part == cut.part);
-            let is_past =
-                |rider: &Rider| cut.way * rider.gone >= cut.ahead + cut.length + GONE_M || lane.has_left(rider);
+            // A belt that turns brings back what is on it still.
+            let is_behind = |rider: &Rider| cut.way * rider.gone >= cut.ahead + cut.length + GONE_M;
+            let is_past = |rider: &Rider| is_behind(rider) && !lane.bears(rider) || lane.has_left(rider);
             cut.taken.is_none_or(|taken| taken > now) && rider.is_some_and(|rider| !is_past(rider))
         });
         let active = &self.active;

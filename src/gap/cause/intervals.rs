@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use crate::gap::SignalScore;
-use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile};
+use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile, spread_of, sum_of_squares};
 
 /// The rise of the deviance that an interval of 95 % ends at.
 const RISE: f64 = 3.84;
@@ -13,6 +13,9 @@ const RISE: f64 = 3.84;
 /// equations of their own, friction with bristles and two masses on a spring among them, gave springs 0.5 to 0.9 per mille off where it
 /// left 0.3 to 0.6.)
 const OF_THE_LAW: f64 = 1e-3;
+
+/// What the walkers draw by.
+const SEED: u64 = 1;
 
 /// A parameter of an effect with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +31,9 @@ pub struct Bounds {
 ///
 /// What the deviance has to rise by is that of 95 % (3.84) times what correlated residuals exaggerate, times the dispersion: what is left above
 /// the floor is the law's own error, and leaves parameters as unsure as noise of its size would.
+///
+/// Of several parameters of a device that reports states alone walkers say beside that how far they may go together: the deviance of times
+/// that are known within cycles has steps, along which a profile is lost.
 pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
     let settled = bench.predict(&best.set, &best.at).map(|there| bench.subject.repeating_as(&there));
     let bench = &bench.with(settled.as_ref().unwrap_or(bench.subject));
@@ -44,7 +50,15 @@ pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
         let blur = if *is_time { 1.96 * 0.5 * tick } else { 0.0 };
         bounds(value, interval, blur.hypot(OF_THE_LAW * value))
     };
-    times.par_iter().enumerate().map(of).collect()
+    let mut bounds: Vec<Bounds> = times.par_iter().enumerate().map(of).collect();
+    if bounds.len() > 1 && !bench.subject.has_levels() && !bench.is_stopped() {
+        let cost = |at: &[f64]| residuals(at).map(|residuals| sum_of_squares(&residuals));
+        let spread = spread_of(&cost, &fitted, &best.ranges, rise, SEED);
+        for (bounds, [from, to]) in bounds.iter_mut().zip(spread) {
+            bounds.interval = [bounds.interval[0].min(from), bounds.interval[1].max(to)];
+        }
+    }
+    bounds
 }
 
 /// How many times more than its floor a device's levels cost under `best`, at least 1. Where they are weighed by what the law leaves

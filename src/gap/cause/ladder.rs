@@ -311,14 +311,23 @@ pub fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: b
     Some((trial, subject))
 }
 
+/// What nominal parameters must gain, in deviance, to have followed.
+const GAINED_BY_FOLLOWING: f64 = 1.0;
+
 /// The candidates alone as the device is weighed at last; those that explain the most fitted anew.
 fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
     const MOST: usize = 12;
     let weighed = bench.with(&ladder.subject);
+    // Where the answer gained by nominal parameters that follow it, its rivals have to have them follow as well.
+    let of_answer = ladder.singles.iter().find(|trial| {
+        trial.set.last().zip(ladder.best.set.last()).is_some_and(|(single, answer)| single.is_same(answer))
+    });
+    let as_single = of_answer.and_then(|trial| weighed.trial(&trial.set, trial.at.clone()));
+    let has_followed = as_single.is_some_and(|there| there.cost - ladder.best.cost > GAINED_BY_FOLLOWING);
     let fitted = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
         let there = weighed.trial(&trial.set, trial.at.clone())?;
         let is_near = ladder.bare.cost - there.cost > NEAR_THE_BEST * (ladder.bare.cost - ladder.best.cost);
-        if rank >= MOST || !is_near || there.cost == trial.cost {
+        if rank >= MOST || !is_near || (there.cost == trial.cost && !has_followed) {
             return Some(there);
         }
         weighed.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len())).or(Some(there))

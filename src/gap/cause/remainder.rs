@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Standing};
+use super::starts::UNLIMITED;
 use super::tangent::{LEAST_OWN, orthonormal, product, take_out};
 use crate::gap::fit::{Range, Slopes};
 use crate::gap::floor::FLOOR_UNCERTAINTY;
@@ -34,6 +35,8 @@ const LEAST_SHARE: f64 = 0.01;
 /// The same where friction or play explains at least as much: real ones bend before they let go, which no law of the library does. (By the
 /// figures of docs/gap-on-real-data.md two joints of a real arm leave 0.005 to 0.12 of their position's squares.)
 const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.12;
+/// What lies so many times further off than its floor, root mean square, needs not be known to depend on anything: it is there.
+const PLAINLY: f64 = 10.0;
 const PLAY: [&str; 3] = ["backlash", "dead-band", "hysteresis"];
 
 /// What is left.
@@ -45,7 +48,7 @@ pub struct Remainder {
     pub depends_on: Vec<String>,
     /// Whether it is more than noise and a few per cent of the gap.
     pub is_large: bool,
-    /// Whether it is large and depends on something, or the answer's main parameter surely changes with time.
+    /// Whether it is large and depends on something or lies far beyond the floor, or the answer's main parameter surely changes with time.
     pub is_significant: bool,
     /// In which share of the draws of blocks it is.
     pub certainty: f64,
@@ -86,8 +89,10 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     if !is_steady {
         depends.insert(0, ("time".to_owned(), 1.0, 1.0));
     }
-    let is_significant = is_large && !depends.is_empty() || is_surely_not;
+    let is_plain = score.signals.iter().any(|signal| signal.level.is_some() && signal.rms > PLAINLY * signal.floor);
+    let is_significant = is_large && (is_plain || !depends.is_empty()) || is_surely_not;
     let certainty = match is_significant {
+        true if depends.is_empty() => 1.0,
         true => depends.iter().map(|(_, _, certainty)| *certainty).fold(0.0, f64::max),
         false => 0.0,
     };
@@ -274,7 +279,7 @@ impl Trend {
 /// that is little in all of them no span says anything by itself.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
-    /// By which share of itself it changes from the recordings' begin to their end.
+    /// By which share of what it does it changes from the recordings' begin to their end.
     change: f64,
     /// What that gains in deviance.
     gain: f64,
@@ -292,11 +297,22 @@ impl Drift {
     }
 }
 
+/// Where the answer's main parameter does nothing, and how far it is from there: a gain of 0.994 is a change of 0.006. Of what is nominally
+/// without limit, and of a nominal parameter, all of it. `None` where the answer has none.
+fn amount(best: &Trial) -> Option<(f64, f64)> {
+    let value = *best.at.first().filter(|_| best.parameters() > 0)?;
+    let (candidate, free) = best.set.iter().find_map(|candidate| Some((candidate, candidate.free.first()?)))?;
+    let parameter = candidate.effect.parameters.iter().find(|parameter| parameter.name == free.name);
+    let nominal = parameter.map(|parameter| parameter.nominal).filter(|_| !candidate.is_parameter_error());
+    let nominal = nominal.filter(|nominal| nominal.abs() < UNLIMITED).unwrap_or(0.0);
+    Some((nominal, value - nominal)).filter(|(_, amount)| *amount != 0.0)
+}
+
 /// The drift of the answer's main parameter. `None` where it has none, or no level has a slope.
 ///
 /// Source: the score test of a parameter that is left out, here the rate (C. R. Rao, Proc. Camb. Phil. Soc. 44, 1948, 50–57).
 fn drift(bench: &Bench<'_>, best: &Trial) -> Option<Drift> {
-    let value = *best.at.first().filter(|_| best.parameters() > 0)?;
+    let (_, amount) = amount(best)?;
     let score = bench.subject.score(&*bench.predict(&best.set, &best.at)?);
     let (places, levels) = (score.places(), score.are_levels());
     let slopes = Slopes::of(&|at: &[f64]| bench.residuals(&best.set, at), &best.at, &best.ranges)?;
@@ -319,16 +335,16 @@ fn drift(bench: &Bench<'_>, best: &Trial) -> Option<Drift> {
         return None;
     }
     let rate = -product(slopes.here(), &along) / own;
-    Some(Drift { change: rate / value, gain: rate * rate * own })
+    Some(Drift { change: rate / amount, gain: rate * rate * own })
 }
 
 /// The trend of the answer's main parameter. `None` where it has none, or too few spans say anything.
 fn trend(bench: &Bench<'_>, best: &Trial) -> Option<Trend> {
-    let value = *best.at.first().filter(|_| best.parameters() > 0)?;
+    let (nominal, amount) = amount(best)?;
     let Range { least, greatest, .. } = best.ranges[0];
     let shares = [0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.75, 2.0];
     let grid: Vec<f64> =
-        shares.iter().map(|share| share * value).filter(|at| (least..=greatest).contains(at)).collect();
+        shares.iter().map(|share| nominal + share * amount).filter(|at| (least..=greatest).contains(at)).collect();
     let costs: Vec<Vec<f64>> = grid
         .iter()
         .map(|value| {
@@ -355,7 +371,7 @@ fn trend(bench: &Bench<'_>, best: &Trial) -> Option<Trend> {
     if values.len() < 6 {
         return None;
     }
-    let spread = (quantile(&values, 0.9) - quantile(&values, 0.1)) / value.abs();
+    let spread = (quantile(&values, 0.9) - quantile(&values, 0.1)) / amount.abs();
     let gain = (together.into_iter().fold(f64::INFINITY, f64::min) - each) / values.len() as f64;
     Some(Trend { spread, monotone: rank_correlation(&values, &times), gain })
 }

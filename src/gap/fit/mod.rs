@@ -9,6 +9,7 @@ mod profile;
 mod rugged;
 mod search;
 mod simplex;
+mod walkers;
 
 pub use evolution::evolve;
 pub use least_squares::{Slopes, least_squares, least_squares_from};
@@ -16,6 +17,7 @@ pub use profile::{Interval, Side, profile};
 pub use rugged::rugged;
 pub use search::{Effort, search};
 pub use simplex::simplex;
+pub use walkers::spread_of;
 
 /// The residuals of a model at its parameters: as many at every point. `None` where the model cannot be computed there, or
 /// where whoever asked no longer wants to know.

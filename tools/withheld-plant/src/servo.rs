@@ -216,8 +216,15 @@ struct Friction {
     /// Grows by this share as it warms up, with this time constant.
     warms: Option<(f64, f64)>,
     bend: f64,
+    /// Whether it is held by what holds at rest alone, and only bends.
+    is_held: bool,
+    /// How fast it was a step ago, m/s.
+    speed_before: f64,
     clock: f64,
 }
+
+/// Slower than this, m/s, what slides is held again, as it is where it turns round.
+const HELD_BELOW: f64 = 1e-4;
 
 impl Friction {
     fn new(quirks: Quirks<'_>) -> Friction {
@@ -233,6 +240,8 @@ impl Friction {
             along: along.map(|quirk| ["amplitude", "period", "phase"].map(|name| quirk.value(name))),
             warms: warms.map(|quirk| (quirk.value("rise"), quirk.value("time"))),
             bend: 0.0,
+            is_held: true,
+            speed_before: 0.0,
             clock: 0.0,
         }
     }
@@ -248,6 +257,21 @@ impl Friction {
         (self.coulomb * (1.0 + warmth) + along + falls + holds + self.by_load * drive.abs()).max(0.0)
     }
 
+    /// What holds at rest alone does so until all of it is used up: the bristles bend and nothing slides, however fast they are bent
+    /// (P. Dupont, V. Hayward, B. Armstrong, F. Altpeter, Single state elastoplastic friction models, IEEE Trans. Automatic Control 47,
+    /// 2002: elastic up to the breakaway deflection).
+    fn hold(&mut self, stiffness: f64, speed: f64, position: f64, drive: f64) {
+        if self.breakaway <= 0.0 {
+            self.is_held = false;
+        } else if self.is_held {
+            let holds = self.slides(0.0, position, drive);
+            self.is_held = (stiffness * self.bend).abs() < holds || self.bend * speed < 0.0;
+        } else {
+            self.is_held = speed.abs() < HELD_BELOW || speed * self.speed_before < 0.0;
+        }
+        self.speed_before = speed;
+    }
+
     /// What it opposes with over the next `h`, N.
     fn step(&mut self, h: f64, speed: f64, position: f64, drive: f64, _heat: &mut f64) -> f64 {
         self.clock += h;
@@ -259,7 +283,8 @@ impl Friction {
         let stiffness = most.max(self.coulomb + self.breakaway + self.stribeck) / BEND;
         let before = self.bend;
         let decay = speed.abs() * stiffness / most;
-        self.bend = if decay * h < 1e-9 {
+        self.hold(stiffness, speed, position, drive);
+        self.bend = if self.is_held || decay * h < 1e-9 {
             self.bend + speed * h
         } else {
             let settles = speed.signum() * most / stiffness;
@@ -334,6 +359,28 @@ mod tests {
         servo.read(2.0, &mut values);
         // 10 N and 50 N·s/m at 0.1 m/s.
         assert!((values[2] - 15.0).abs() < 0.1, "{}", values[2]);
+    }
+
+    /// However fast it is pulled, by 40 N in a second or by 2000.
+    #[test]
+    fn what_is_at_rest_is_held_until_all_that_holds_it_is_used_up() {
+        for pulled in [0.002, 0.1] {
+            let holds = [quirk("A", "breakaway-friction", &[("force", 15.0)])];
+            let mut servo = Servo::new(&parameters(), &holds, "A");
+            let (mut values, mut most) = (Vec::new(), 0.0_f64);
+            for k in 1..=60_000 {
+                let now = f64::from(k) * 1e-4;
+                servo.command(now, "positionTarget", pulled * now);
+                servo.advance(now, 1e-4, 0);
+                values.clear();
+                servo.read(now, &mut values);
+                if values[0] > 2.0 * BEND {
+                    break;
+                }
+                most = most.max(values[2]);
+            }
+            assert!(values[0] > BEND && (most - 15.0).abs() < 0.5, "{most} N when pulled by {pulled} m/s");
+        }
     }
 
     #[test]
