@@ -23,6 +23,8 @@ pub(super) struct Beside {
     pub hands: [Vec<(f64, f64)>; 2],
     /// The one bay that puts parts on it.
     pub fed: Option<Fed>,
+    /// Where the parts that stand on it at the start by the plant's word have their middles, m from its start.
+    pub stand: Vec<f64>,
     /// How far it went by its own report, or, where it has none, by its commands.
     pub way: Option<Way>,
 }
@@ -69,6 +71,8 @@ pub(super) struct Layout {
     taken: Vec<(String, bool)>,
     /// Belts by their instances' names, and how a bay feeds them.
     fed: Vec<(String, Fed)>,
+    /// Belts by their instances' names, and where a part stands on them at the start.
+    stand: Vec<(String, f64)>,
 }
 
 /// A belt where it stands.
@@ -84,7 +88,8 @@ const GAPS_M: [f64; 4] = [0.01, 0.05, 0.10, 0.15];
 impl Layout {
     /// That of a plant.
     pub fn new(plant: &Plant, subjects: &[Subject]) -> Result<Layout, EffectError> {
-        let mut layout = Layout { belts: Vec::new(), plates: Vec::new(), taken: bays(plant), fed: feeds(plant) };
+        let stand = plant.parts.iter().filter_map(|part| Some((part.on.clone()?, part.pose.x))).collect();
+        let mut layout = Layout { belts: Vec::new(), plates: Vec::new(), taken: bays(plant), fed: feeds(plant), stand };
         for (at, subject) in subjects.iter().enumerate() {
             let device = subject.device(&[], &Overrides::none())?;
             let instance = subject.id.instance(plant);
@@ -125,6 +130,7 @@ impl Layout {
                     lane: Arc::new(lane),
                     hands: self.hands(subjects, standing, run),
                     fed: self.fed(standing),
+                    stand: self.stand.iter().filter(|(on, _)| *on == standing.name).map(|(_, at)| *at).collect(),
                     way: way_of(&subjects[*at], run, 1.0)?,
                 };
             }

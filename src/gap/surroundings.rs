@@ -62,6 +62,7 @@ pub(super) fn surround(
                 lane: beside.lane.clone(),
                 fed: beside.fed_alone(&belt.barriers),
                 hands: beside.hands.clone(),
+                stand: beside.stand.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
             let script = of_belt(&geometry, signals, device, beside.way.as_ref(), run);
@@ -288,6 +289,7 @@ mod tests {
             lane: Arc::default(),
             fed: None,
             hands: Default::default(),
+            stand: Vec::new(),
         };
         let came = |start: f64| [0.0, 6.0, 12.0, 18.0].map(|at| (start + at, start + at + 0.6));
         let (a, b) = (track(&came(1.01)), track(&came(3.81)));

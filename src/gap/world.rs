@@ -61,7 +61,8 @@ pub enum Surrounding {
     Sealed,
     /// So many actuators of others on its supply move.
     Others(u32),
-    /// So many of its grippers hold something.
+    /// So many parts weigh on it that are not on their way through its beams: what its grippers hold, or what has come onto a belt and not yet
+    /// to its first beam.
     Held(u32),
 }
 
@@ -256,6 +257,9 @@ impl World {
     /// Forgets what is over by `now`: cuts that are past, and parts of which nothing is to come.
     fn forget(&mut self, now: f64) {
         let (riders, lane) = (&mut self.riders, &self.script.lane);
+        let is_taken = |cut: &&Cut| cut.taken.is_some_and(|taken| taken <= now);
+        let taken: Vec<usize> = self.active.iter().filter(is_taken).map(|cut| cut.part).collect();
+        riders.retain(|rider| !taken.contains(&rider.part));
         self.active.retain(|cut| {
             let rider = riders.iter().find(|rider| rider.part == cut.part);
             // A belt that turns brings back what is on it still.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use crate::gap::SignalScore;
-use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile, spread_of, sum_of_squares};
+use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile};
 
 /// The rise of the deviance that an interval of 95 % ends at.
 const RISE: f64 = 3.84;
@@ -13,9 +13,6 @@ const RISE: f64 = 3.84;
 /// equations of their own, friction with bristles and two masses on a spring among them, gave springs 0.5 to 0.9 per mille off where it
 /// left 0.3 to 0.6.)
 const OF_THE_LAW: f64 = 1e-3;
-
-/// What the walkers draw by.
-const SEED: u64 = 1;
 
 /// A parameter of an effect with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,9 +29,9 @@ pub struct Bounds {
 /// What the deviance has to rise by is that of 95 % (3.84) times what correlated residuals exaggerate, times the dispersion: what is left above
 /// the floor is the law's own error, and leaves parameters as unsure as noise of its size would.
 ///
-/// Of several parameters of a device that reports states alone walkers say beside that how far they may go together: the deviance of times
-/// that are known within cycles has steps, along which a profile is lost.
-pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
+/// Of several parameters of a device that reports states alone walkers say beside that how far they may go together (`ends`): the deviance of
+/// times that are known within cycles has steps, along which a profile is lost.
+pub fn intervals(bench: &Bench<'_>, best: &Trial, ends: Option<&[[f64; 2]]>, tick: f64) -> Vec<Bounds> {
     let settled = bench.predict(&best.set, &best.at).map(|there| bench.subject.repeating_as(&there));
     let bench = &bench.with(settled.as_ref().unwrap_or(bench.subject));
     let residuals = |at: &[f64]| bench.residuals(&best.set, at);
@@ -51,12 +48,8 @@ pub fn intervals(bench: &Bench<'_>, best: &Trial, tick: f64) -> Vec<Bounds> {
         bounds(value, interval, blur.hypot(OF_THE_LAW * value))
     };
     let mut bounds: Vec<Bounds> = times.par_iter().enumerate().map(of).collect();
-    if bounds.len() > 1 && !bench.subject.has_levels() && !bench.is_stopped() {
-        let cost = |at: &[f64]| residuals(at).map(|residuals| sum_of_squares(&residuals));
-        let spread = spread_of(&cost, &fitted, &best.ranges, rise, SEED);
-        for (bounds, [from, to]) in bounds.iter_mut().zip(spread) {
-            bounds.interval = [bounds.interval[0].min(from), bounds.interval[1].max(to)];
-        }
+    for (bounds, [from, to]) in bounds.iter_mut().zip(ends.into_iter().flatten()) {
+        bounds.interval = [bounds.interval[0].min(*from), bounds.interval[1].max(*to)];
     }
     bounds
 }

@@ -10,7 +10,7 @@ use super::remainder::is_explained_by_friction;
 use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
-use crate::gap::fit::Effort;
+use crate::gap::fit::{Effort, Spread, spread, sum_of_squares};
 use crate::gap::statistics::{Draws, least_gain, quantile};
 use crate::gap::{Prediction, Score, Subject, THRESHOLD, evidence, gains_with_motion};
 
@@ -51,6 +51,8 @@ pub struct Ladder {
     pub beneath: f64,
     /// The best set; the bare model where no effect is worth having.
     pub best: Trial,
+    /// How far each of its parameters may go, as far as walkers went; `None` where slopes say that.
+    pub ends: Option<Vec<[f64; 2]>>,
     /// The device, weighed by what the best set leaves: what `best` and `singles` were scored with.
     pub subject: Subject,
     /// Where the best set is of one effect, every candidate alone, the best first.
@@ -101,6 +103,7 @@ pub fn climb(
         bare,
         floor,
         beneath: 0.0,
+        ends: None,
         subject,
         singles: vec![],
         near: vec![],
@@ -128,11 +131,31 @@ pub fn climb(
             break;
         }
     }
+    if ladder.best.parameters() > 1 && !bench.subject.has_levels() {
+        spread_out(bench, &mut ladder);
+    }
     if ladder.best.set.len() == 1 {
         weigh_singles(bench, &mut ladder);
     }
     Some(ladder)
 }
+
+/// Looks where else the best set of a device that reports states alone costs less: of several parameters slopes do not lead there.
+fn spread_out(bench: &Bench<'_>, ladder: &mut Ladder) {
+    let subject = ladder.subject.clone();
+    let weighed = bench.with(&subject);
+    let best = &ladder.best;
+    let cost = |at: &[f64]| weighed.residuals(&best.set, at).map(|residuals| sum_of_squares(&residuals));
+    let rise = 3.84 * best.inflation();
+    let Spread { best: found, ends } = spread(&cost, &best.fitted(), &best.ranges, best.parameters(), (rise, SEED));
+    ladder.ends = Some(ends);
+    if let Some(better) = weighed.trial(&best.set, found.at).filter(|better| better.cost < best.cost) {
+        ladder.best = better;
+    }
+}
+
+/// What walkers draw by.
+const SEED: u64 = 1;
 
 /// The deviance where nothing is wrong, and its variance.
 pub fn floor(score: &Score) -> (f64, f64) {
@@ -330,7 +353,10 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
         if rank >= MOST || !is_near || (there.cost == trial.cost && !has_followed) {
             return Some(there);
         }
-        weighed.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len())).or(Some(there))
+        // Also from where they went for the answer: among times that are known within cycles no slope leads there.
+        let as_answer = weighed.carried(&trial.set, &ladder.best.overrides);
+        let starts = [trial.at.clone(), [&trial.at[..trial.parameters()], &as_answer].concat()];
+        weighed.fit(&trial.set, &starts, anew(trial.at.len())).or(Some(there))
     });
     let mut fitted: Vec<Trial> = fitted.collect();
     fitted.sort_by(|a, b| a.cost.total_cmp(&b.cost));

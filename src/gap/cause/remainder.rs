@@ -35,8 +35,10 @@ const LEAST_SHARE: f64 = 0.01;
 /// The same where friction or play explains at least as much: real ones bend before they let go, which no law of the library does. (By the
 /// figures of docs/gap-on-real-data.md two joints of a real arm leave 0.005 to 0.12 of their position's squares.)
 const LEAST_SHARE_BESIDE_FRICTION: f64 = 0.12;
-/// What lies so many times further off than its floor, root mean square, needs not be known to depend on anything: it is there.
+/// What lies so many times further off than its floor, root mean square, needs not be known to depend on anything: it is there, and from this
+/// share on it is no small part of a gap that is large. (A coupling that slips once a turn left 0.0035 when it was taken for a smaller scale.)
 const PLAINLY: f64 = 10.0;
+const PLAIN_SHARE: f64 = 0.002;
 const PLAY: [&str; 3] = ["backlash", "dead-band", "hysteresis"];
 
 /// What is left.
@@ -79,7 +81,9 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let mut depends = dependences(bench, &prediction, &score);
     // What several floors were each thought to be a little too low is left of no gap: by itself no signal shows that anything is off.
     let shows = !depends.is_empty() || evidence(bench.subject, &prediction) > THRESHOLD;
-    let is_large = share > may_be_left(by_friction)
+    let is_plain = score.signals.iter().any(|signal| signal.level.is_some() && signal.rms > PLAINLY * signal.floor);
+    let may_be_left = may_be_left(by_friction);
+    let is_large = (share > may_be_left || is_plain && share > PLAIN_SHARE.max(may_be_left - LEAST_SHARE))
         && (is_beyond(left, ladder.floor.1) || is_beyond(above - FLOOR_UNCERTAINTY * worst.0, worst.1))
         && shows;
     let trend = if best.set.is_empty() { None } else { trend(bench, best) };
@@ -89,7 +93,6 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     if !is_steady {
         depends.insert(0, ("time".to_owned(), 1.0, 1.0));
     }
-    let is_plain = score.signals.iter().any(|signal| signal.level.is_some() && signal.rms > PLAINLY * signal.floor);
     let is_significant = is_large && (is_plain || !depends.is_empty()) || is_surely_not;
     let certainty = match is_significant {
         true if depends.is_empty() => 1.0,

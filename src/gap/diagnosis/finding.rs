@@ -135,7 +135,7 @@ fn conclude(
     name_the_plainest(&mut finding);
     name_what_lets_go_at_once(&mut finding);
     let tick = study.ticks.iter().copied().fold(0.0, f64::max);
-    finding.bounds = intervals(&weighed, &finding.ladder.best, tick);
+    finding.bounds = intervals(&weighed, &finding.ladder.best, finding.ladder.ends.as_deref(), tick);
     finding.conclusion = match () {
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
         // What is left may go with nothing that is looked for.
@@ -206,6 +206,7 @@ fn name_the_plainest(finding: &mut Finding) {
         }
         let trial = std::mem::replace(&mut answer.alternatives[at].trial, best.clone());
         *best = trial;
+        finding.ladder.ends = None;
         if !best.set[0].is_parameter_error() {
             let is_certain = best.set[0].numbers() == 0;
             let holds_it = |other: &Alternative| is_certain && other.candidate().numbers() > 0;

@@ -17,7 +17,7 @@ pub use profile::{Interval, Side, profile};
 pub use rugged::rugged;
 pub use search::{Effort, search};
 pub use simplex::simplex;
-pub use walkers::spread_of;
+pub use walkers::{Spread, spread};
 
 /// The residuals of a model at its parameters: as many at every point. `None` where the model cannot be computed there, or
 /// where whoever asked no longer wants to know.
