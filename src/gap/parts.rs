@@ -73,6 +73,8 @@ struct Seen {
     part: Option<usize>,
     /// The place of the cut that this one goes on with: the belt turned, and brought back what had left the beam.
     again: Option<usize>,
+    /// Whether it left the beam the way that it came, and did not come again.
+    is_back: bool,
 }
 
 /// What the barriers of a belt saw, as a script and as the origins of their edges. `travel` gives the belt's nominal way at an
@@ -186,7 +188,20 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
         let is_seen = geometry.beams[beam].is_some();
         if is_seen {
             let stays = fall.is_none() && (travel(last) - start).abs() > STAYS * longest;
-            cuts.push(Seen { beam, rise, fall, start, from, to, way, stays, length: None, part: None, again: None });
+            cuts.push(Seen {
+                beam,
+                rise,
+                fall,
+                start,
+                from,
+                to,
+                way,
+                stays,
+                length: None,
+                part: None,
+                again: None,
+                is_back: false,
+            });
         }
     }
     cuts
@@ -224,6 +239,7 @@ fn find_again(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f6
             let length = known.unwrap_or(if gone < GATE_M { longest } else { gone });
             left.push(Left { first, at: cut.to, gone, length });
         }
+        left.iter().filter(|left| left.gone < GATE_M).for_each(|left| seen[left.first].is_back = true);
     }
 }
 
@@ -291,7 +307,7 @@ fn link(geometry: &Geometry, seen: &[Seen], factor: f64) -> Vec<Option<usize>> {
     let mut is_taken = vec![false; seen.len()];
     for at in 0..seen.len() {
         let first = seen[at];
-        let is_free = !is_taken[at] && first.again.is_none();
+        let is_free = !is_taken[at] && first.again.is_none() && !first.is_back;
         let between = distance(geometry, first.beam, first.way).filter(|way| *way > 0.0 && is_free);
         let Some(between) = between else { continue };
         let expected = first.start + first.way * between / factor;

@@ -23,9 +23,15 @@ const COOLING: f64 = 0.4;
 const APART: f64 = 0.5;
 /// No walker goes to the very end: from the furthest one it is gone on by such a share of how far that was, the others following, so often and
 /// each time with so many trials.
-const FURTHER: f64 = 0.3;
-const TIMES: u32 = 6;
-const TRIALS: u32 = 50;
+const FURTHER: f64 = 0.2;
+const TIMES: u32 = 10;
+const TRIALS: u32 = 40;
+/// By what a step grows that led on, and shrinks that did not.
+const GROWS: [f64; 2] = [1.5, 0.4];
+/// Of the walkers that are near the best, that share which is furthest says how the others follow there.
+const THERE: f64 = 0.3;
+/// And so many at least.
+const FEWEST: usize = 8;
 /// What is added to each step, of a parameter's scale, so that walkers that lie in a line can leave it.
 const ASIDE: f64 = 1e-4;
 
@@ -91,6 +97,10 @@ fn further(
     ranges: &[Range],
     rise: f64,
 ) -> f64 {
+    // A valley bends: how the others follow is asked of those that are there.
+    let mut near = near.to_vec();
+    near.sort_by(|a, b| (side * b.at[j]).total_cmp(&(side * a.at[j])));
+    near.truncate(((THERE * near.len() as f64) as usize).max(FEWEST));
     let count = near.len() as f64;
     let mean = |k: usize| near.iter().map(|walker| walker.at[k]).sum::<f64>() / count;
     let means: Vec<f64> = (0..ranges.len()).map(mean).collect();
@@ -114,9 +124,9 @@ fn further(
         };
         let found = simplex(&mut |others: &[f64]| cost(&whole(others)), &start, &near, 0.3, TRIALS);
         if moved != 0.0 && found.cost - best.cost <= rise {
-            at = whole(&found.at);
+            (at, step) = (whole(&found.at), GROWS[0] * step);
         } else {
-            step *= 0.5;
+            step *= GROWS[1];
         }
     }
     at[j]
@@ -180,7 +190,7 @@ mod tests {
     fn walkers_go_along_a_valley_that_has_steps() {
         let lost = |at: &[f64]| at[0] * (1.0 / at[1] - 1.0) / 0.5;
         let shown = |at: &[f64], k: u32| ((lost(at) + 0.007 * f64::from(k)) / 0.02).floor();
-        let truth = [0.02, 0.4];
+        let truth = [0.06, 0.4];
         let cost = |at: &[f64]| {
             let off = |k: u32| (shown(at, k) - shown(&truth, k)).powi(2);
             Some((0..40).map(|k| 10.0 * off(k)).sum::<f64>())
