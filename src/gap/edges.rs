@@ -88,7 +88,8 @@ pub(super) fn interval(track: &Track, index: usize) -> (f64, f64) {
 /// How far an edge may be off in time, s: as far as its sensor (`sigma`), its instants, and the part that makes it.
 pub(super) fn uncertainty(track: &Track, predicted: &PredictedEdge, sigma: f64) -> f64 {
     const SLOWEST: f64 = 1e-3;
-    let part = predicted.part.map_or(0.0, |passing| track.tolerance.hypot(passing.astray) / passing.speed.max(SLOWEST));
+    let part =
+        predicted.part.map_or(0.0, |passing| track.tolerance.hypot(passing.astray) / passing.speed.abs().max(SLOWEST));
     sigma.hypot(track.grid.spread).hypot(part)
 }
 

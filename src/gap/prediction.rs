@@ -48,7 +48,7 @@ pub struct PredictedEdge {
 pub struct Passing {
     /// Which of the run's parts.
     pub part: usize,
-    /// How fast it passes, m/s: a part that is further by δ makes the edge sooner by δ / speed.
+    /// How fast it passes, m/s, below 0 on its way back: a part that is further by δ makes the edge sooner by δ / speed.
     pub speed: f64,
     /// How far it may be from where it is taken to be, beside what all of its edges share, m: a belt that has a gap of its own
     /// carried it.

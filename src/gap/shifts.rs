@@ -48,7 +48,9 @@ pub(super) fn relengthed(script: &Script, lengths: &[f64], barriers: &[Barrier<'
         }
         let with = |length: f64| {
             let longer = edges.iter().map(|edge| {
-                let by = if edge.predicted.to == 0.0 { now - length } else { 0.0 };
+                // On its way back a part comes with its rear.
+                let comes_on = edge.predicted.part.is_none_or(|passing| passing.speed >= 0.0);
+                let by = if (edge.predicted.to == 0.0) == comes_on { now - length } else { 0.0 };
                 PartEdge { predicted: PredictedEdge { at: shifted(&edge.predicted, by), ..edge.predicted }, ..*edge }
             });
             likeliest_shift(&longer.collect::<Vec<_>>()).0
@@ -100,7 +102,7 @@ fn likeliest_shift(edges: &[PartEdge<'_>]) -> (f64, f64) {
             let wanted = before + share * (seen - before);
             let shift = ((edge.predicted.at - wanted) * passing.speed).clamp(-LATENT_M, LATENT_M);
             best = if cost(shift) < best.0 { (cost(shift), shift) } else { best };
-            step = step.max(0.25 * (seen - before) * passing.speed);
+            step = step.max(0.25 * (seen - before) * passing.speed.abs());
         }
     }
     // Then halved in on.
@@ -116,7 +118,7 @@ fn likeliest_shift(edges: &[PartEdge<'_>]) -> (f64, f64) {
 /// When an edge comes of a part that is further by `shift`, s.
 pub(super) fn shifted(edge: &PredictedEdge, shift: f64) -> f64 {
     const SLOWEST: f64 = 1e-3;
-    edge.part.map_or(edge.at, |passing| edge.at - shift / passing.speed.max(SLOWEST))
+    edge.part.map_or(edge.at, |passing| edge.at - shift / passing.speed.abs().max(SLOWEST).copysign(passing.speed))
 }
 
 #[cfg(test)]
@@ -166,5 +168,17 @@ mod tests {
             let predicted = PredictedEdge { at: shifted(&part.predicted, shift), ..part.predicted };
             interval_cost(&track, part.index, &predicted, 3e-4) < 0.1
         }));
+    }
+
+    #[test]
+    fn a_part_that_is_further_comes_sooner_and_on_its_way_back_later() {
+        let edge = |speed: f64| PredictedEdge {
+            at: 2.0,
+            index: 100,
+            to: 1.0,
+            part: Some(crate::gap::Passing { part: 0, speed, astray: 0.0 }),
+        };
+        assert!((shifted(&edge(0.5), 0.01) - 1.98).abs() < 1e-12);
+        assert!((shifted(&edge(-0.5), 0.01) - 2.02).abs() < 1e-12);
     }
 }

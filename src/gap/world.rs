@@ -297,7 +297,7 @@ impl World {
     fn crossed(&mut self, device: &mut dyn Device) {
         let beams = self.cut();
         let speed = match device.role() {
-            Role::Carries(belt) => belt.velocity.abs(),
+            Role::Carries(belt) => belt.velocity,
             _ => 0.0,
         };
         for (beam, is_cut) in beams.into_iter().enumerate() {
@@ -308,7 +308,7 @@ impl World {
                     let leaves = if self.script.lane.has_left(rider) { 0.0 } else { f64::INFINITY };
                     // Sooner at the end of this belt is sooner behind it.
                     let was_here = rider.speed > 0.0 && self.script.lane.is_beyond(rider);
-                    let speed = if was_here { rider.speed } else { speed };
+                    let speed = if was_here { rider.speed } else { cut.way * speed };
                     let passing = Passing { part: cut.part, speed, astray: rider.astray() };
                     (progress.abs().min((progress - cut.length).abs()).min(leaves), passing)
                 };
