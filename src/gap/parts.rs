@@ -39,6 +39,9 @@ const LENGTH_GATE: f64 = 0.25;
 const LENGTH_GATE_M: f64 = 0.1;
 /// Within how much of the belt's way a part passes a beam that it has passed before, m: less than two parts are apart.
 const PASSES_M: f64 = 0.05;
+/// How far from where it left a beam a part may be by the belt's way when it comes back, m: it slips where the belt turns, and parts are further
+/// apart.
+const BACK_M: f64 = 0.25;
 /// Which share of the parts of one barrier must reach the other for one that does not to be missed.
 const RELIABLE: f64 = 0.8;
 /// After how many times the longest part's way a barrier that is cut still has been left by what cut it.
@@ -250,7 +253,7 @@ fn comes_again(geometry: &Geometry, first: &Seen, left: &Left, cut: &Seen, trave
     let is_past = left.gone > 0.5 * left.length;
     let comes_back = if is_past { cut.way != first.way } else { cut.way == first.way };
     let gone = |at: f64| first.way * (travel(at) - first.start);
-    if !comes_back || (gone(cut.from) - left.gone).abs() > GATE_M {
+    if !comes_back || (gone(cut.from) - left.gone).abs() > BACK_M {
         return false;
     }
     let Some(front) = geometry.beams[first.beam] else { return false };

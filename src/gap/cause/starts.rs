@@ -28,6 +28,9 @@ pub struct Clues<'a> {
     pub component: Option<&'static str>,
 }
 
+/// How often a link is refreshed at the most, s: what stands for less shows in no report.
+const SHORTEST_WINDOW_S: f64 = 1e-4;
+
 /// From which value on a limit is taken to limit nothing.
 pub const UNLIMITED: f64 = 1e8;
 /// How fast what hangs on a spring swings where the search for it begins, rad/s, and how fast it may.
@@ -199,6 +202,8 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         if candidate.effect.id == "stale-hold" && candidate.place == EffectPlace::ReportLink {
             starts.extend(refresh::period(clues, longest));
         }
+        // A replay takes as many steps as there are windows.
+        let least = if candidate.effect.id == "stale-hold" { least.max(SHORTEST_WINDOW_S) } else { least };
         return (range(least, longest, 0.02), starts);
     }
     if let ("compliance", name) = (candidate.effect.id, parameter.name) {
