@@ -22,6 +22,11 @@ pub(super) fn moving(axes: &[Axis]) -> u32 {
     axes.iter().map(|axis| u32::from(moves(axis.motor().velocity))).sum()
 }
 
+/// How long a robot reports the same, s: it has not arrived until its last axis has.
+pub(super) fn unchanged_for(axes: &[Axis]) -> f64 {
+    if axes.iter().all(Axis::rests) { f64::INFINITY } else { axes.iter().map(Axis::away_for).fold(0.0, f64::max) }
+}
+
 /// A robot's axes are on one supply with each other, and with so many others that move.
 pub(super) fn share(axes: &mut [Axis], others: u32) {
     let all = others + moving(axes);

@@ -131,9 +131,8 @@ impl Device for CartesianRobot {
         self.axes.iter().all(Axis::rests)
     }
 
-    /// It has not arrived until its last axis has.
     fn unchanged_for(&self) -> f64 {
-        if self.rests() { f64::INFINITY } else { self.axes.iter().map(Axis::away_for).fold(0.0, f64::max) }
+        axis::unchanged_for(&self.axes)
     }
 
     fn boxed(&self) -> Box<dyn Device> {

@@ -211,9 +211,17 @@ impl Clone for Box<dyn Stage> {
 }
 
 /// The stages of one component, in the order of the path.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Path {
     stages: Vec<Box<dyn Stage>>,
+}
+
+impl Clone for Path {
+    /// Devices are copied far more often than they have stages.
+    #[inline]
+    fn clone(&self) -> Path {
+        if self.stages.is_empty() { Path::default() } else { Path { stages: self.stages.clone() } }
+    }
 }
 
 impl Path {

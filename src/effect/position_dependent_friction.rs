@@ -44,8 +44,9 @@ impl Stage for PositionDependentFriction {
         Box::new(self.clone())
     }
 
+    /// Where it changes much within that, the axis goes on in shorter ones.
     fn stretch(&self) -> f64 {
-        1e-3
+        5e-3
     }
 
     fn uneven(&self) -> f64 {

@@ -23,6 +23,10 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     ..BASE
 };
 
+/// What is refreshed more often, s, is so whenever it is looked at: at 10 m/s nothing goes 0.1 mm meanwhile, and a stop at each refresh
+/// would have a second take forever.
+const SHORTEST_S: f64 = 1e-5;
+
 #[derive(Clone, Debug)]
 struct StaleHold {
     time: f64,
@@ -41,7 +45,7 @@ impl Stage for StaleHold {
     }
 
     fn next_change(&self) -> Option<f64> {
-        self.window.filter(|_| self.time > 0.0).map(|window| (window + 1) as f64 * self.time)
+        self.window.filter(|_| self.time >= SHORTEST_S).map(|window| (window + 1) as f64 * self.time)
     }
 
     fn signal(&mut self, value: f64, moment: Moment) -> f64 {
@@ -71,5 +75,14 @@ mod tests {
         belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 0.15, &[("velocityActual", 0.1)]);
         belt.check(&[], 0.0499, &[("velocityActual", 0.1)]);
         belt.check(&[], 0.0002, &[("velocityActual", 0.2)]);
+    }
+
+    /// One that would be refreshed a thousand million times in this second.
+    #[test]
+    fn refreshes_that_nobody_sees_take_no_time() {
+        let hold = spec("report-link", "stale-hold", Some("velocityActual"), &[("time", 1e-9)]);
+        let mut belt = with("StraightConveyor", &[], &[hold]);
+        belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 0.15, &[("velocityActual", 0.15)]);
+        belt.check(&[], 0.85, &[("velocityActual", 0.5)]);
     }
 }

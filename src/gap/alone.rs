@@ -322,7 +322,7 @@ fn note_edges(views: &mut [View], legs: &[Leg], alone: &mut Alone) {
             reports[view.port] == state
         };
         let at = legs.iter().zip(legs.iter().skip(1).map(Some).chain([None]));
-        let at = at.filter_map(|(leg, next)| becomes_in(leg, next, &mut is_there)).next();
+        let at = at.filter_map(|(leg, next)| becomes_in(leg, next, What::State, &mut is_there)).next();
         view.becomes(state, at.unwrap_or(alone.now), alone.passing(view.beam));
     }
 }
@@ -341,7 +341,7 @@ fn note_pulses(views: &mut [View], leg: &Leg, alone: &Alone) {
     let passing: Vec<usize> = levels.filter(|port| first[*port] * last[*port] < 0.0).collect();
     for level in passing {
         let mut is_beyond = |device: &mut Box<dyn Device>| reports(device)[level] * last[level] > 0.0;
-        let Some(at) = becomes_in(leg, None, &mut is_beyond) else { continue };
+        let Some(at) = becomes_in(leg, None, What::Level, &mut is_beyond) else { continue };
         let mut there = leg.device.clone();
         there.advance(at - leg.from);
         let passed = reports(&mut there);
@@ -353,15 +353,29 @@ fn note_pulses(views: &mut [View], leg: &Leg, alone: &Alone) {
             }
             let before = Leg { device: leg.device.clone(), from: leg.from, to: at, until: at };
             let after = Leg { device: there.clone(), from: at, to: leg.to, until: leg.to };
-            let from = becomes_in(&before, None, &mut |device| reports(device)[port] == to);
-            let until = becomes_in(&after, None, &mut |device| reports(device)[port] != to);
+            let from = becomes_in(&before, None, What::State, &mut |device| reports(device)[port] == to);
+            let until = becomes_in(&after, None, What::State, &mut |device| reports(device)[port] != to);
             unseen.extend(from.zip(until).map(|(from, until)| Pulse { from, until, to }));
         }
     }
 }
 
+/// What comes to be so of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum What {
+    /// A report that steps is another.
+    State,
+    /// A level is beyond something.
+    Level,
+}
+
 /// When in a leg, or at its end, something comes to be so of its device.
-fn becomes_in(leg: &Leg, next: Option<&Leg>, is_so: &mut dyn FnMut(&mut Box<dyn Device>) -> bool) -> Option<f64> {
+fn becomes_in(
+    leg: &Leg,
+    next: Option<&Leg>,
+    what: What,
+    is_so: &mut dyn FnMut(&mut Box<dyn Device>) -> bool,
+) -> Option<f64> {
     let mut end = leg.device.clone();
     end.advance(leg.to - leg.from);
     if !is_so(&mut end) {
@@ -373,7 +387,16 @@ fn becomes_in(leg: &Leg, next: Option<&Leg>, is_so: &mut dyn FnMut(&mut Box<dyn 
         if high - low < EDGE_S {
             break;
         }
-        let at = 0.5 * (low + high);
+        // Where the device knows until when a state stays, that is mostly when it changes.
+        let stays = if what == What::State { device.unchanged_for().min(high - low) } else { 0.0 };
+        let at = match stays > EDGE_S {
+            true => {
+                device.advance(stays);
+                low += stays;
+                (low + 0.5 * EDGE_S).min(high)
+            }
+            false => 0.5 * (low + high),
+        };
         let mut middle = device.clone();
         middle.advance(at - low);
         if is_so(&mut middle) { high = at } else { (device, low) = (middle, at) }

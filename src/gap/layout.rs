@@ -53,16 +53,6 @@ pub(super) struct Fed {
     pub is_along: bool,
 }
 
-impl Fed {
-    /// When it put a part whose front was at `front` at `until`, s, the belt having gone so far; `None` of one that it cannot have put.
-    pub fn put(&self, front: f64, until: f64, Way { instants, metres }: &Way) -> Option<f64> {
-        let went = front - self.at - 0.5 * self.length;
-        let here = instants.partition_point(|at| *at <= until).checked_sub(1)?;
-        let before = (0..here).rev().find(|at| metres[here] - metres[*at] >= went)?;
-        (went > 0.0).then(|| instants[before])
-    }
-}
-
 /// The belts and plates of a plant, by their subjects.
 pub(super) struct Layout {
     belts: Vec<(usize, Standing)>,

@@ -26,8 +26,6 @@ pub(super) struct Geometry {
     pub fed: Option<(usize, f64)>,
     /// Spans in which other hands may take a part out of a beam, s, by beam.
     pub hands: [Vec<(f64, f64)>; 2],
-    /// Where the parts that stand on it at the start have their middles, m from its start.
-    pub stand: Vec<f64>,
 }
 
 /// How far from where it is expected a part may be seen, m, and as a share of its way.
@@ -108,54 +106,9 @@ pub(super) fn assign(
             }
         }
     }
-    let ends = tracks.iter().flatten().filter_map(|track| track.grid.instants.last().copied()).fold(0.0, f64::max);
-    script.told.extend(coming(geometry, &seen, ends, travel));
     script.cuts.sort_by(|a, b| a.from.total_cmp(&b.from));
     script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
     (script, origins)
-}
-
-/// How many parts are on the belt that no beam has seen: those that come from the belt before, each from when its centre came onto this one until
-/// a beam saw it; and those that stood behind the last beam at the start, until they leave.
-fn coming(geometry: &Geometry, seen: &[Seen], ends: f64, travel: &dyn Fn(f64) -> f64) -> Vec<Told> {
-    const STEP_S: f64 = 0.01;
-    const LONGEST_S: f64 = 30.0;
-    // Those of a bay are told by its schedule, and all together.
-    if geometry.fed.is_some() {
-        return Vec::new();
-    }
-    let mut changes: Vec<(f64, bool)> = Vec::new();
-    let last = geometry.beams.iter().flatten().copied().fold(0.0, f64::max);
-    let is_shown = !matches!(geometry.lane.ends[1], End::Unknown);
-    for centre in geometry.stand.iter().filter(|centre| **centre > last && is_shown) {
-        let steps = (ends / STEP_S) as u32;
-        let at = |step: u32| STEP_S * f64::from(step);
-        let leaves = (0..=steps).map(at).find(|at| travel(*at) - travel(0.0) >= geometry.lane.length - centre);
-        changes.extend([(0.0, true)].into_iter().chain(leaves.map(|leaves| (leaves, false))));
-    }
-    for (at, cut) in seen.iter().enumerate().filter(|(_, cut)| cut.again.is_none()) {
-        let is_first = !seen[..at].iter().any(|before| before.part == cut.part);
-        let comes_from = &geometry.lane.ends[usize::from(cut.way < 0.0)];
-        let Some((front, length)) = geometry.beams[cut.beam].zip(cut.length) else { continue };
-        if !is_first || !matches!(comes_from, End::Belt(_)) {
-            continue;
-        }
-        let centre = front - 0.5 * cut.way * length;
-        let own = if cut.way > 0.0 { centre } else { geometry.lane.length - centre };
-        let steps = (LONGEST_S.min(cut.from) / STEP_S) as u32;
-        let before = |step: u32| cut.from - STEP_S * f64::from(step);
-        let came = (0..=steps).map(before).find(|at| cut.way * (cut.start - travel(*at)) >= own);
-        if let Some(came) = came.filter(|_| own > 0.0) {
-            changes.extend([(came, true), (cut.from, false)]);
-        }
-    }
-    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut count = 0;
-    let told = |(at, comes): (f64, bool)| {
-        count = if comes { count + 1 } else { count - 1 };
-        Told { at, what: Surrounding::Held(count), is_on: count > 0 }
-    };
-    changes.into_iter().map(told).collect()
 }
 
 /// The middle of the cycle in which an edge came, s.
@@ -490,7 +443,6 @@ mod tests {
             lane: Arc::default(),
             fed: None,
             hands: Default::default(),
-            stand: Vec::new(),
         }
     }
 
@@ -534,22 +486,6 @@ mod tests {
         assert_eq!(origins[0][2..], [Origin::Part(1); 2]);
         assert_eq!(origins[1], [Origin::Part(1); 2]);
         assert_eq!(script.cuts.len(), 3);
-    }
-
-    /// One that comes from a belt before weighs from when its middle is on this one until barrier A sees it: 0.15 m at 0.5 m/s. One that stood
-    /// behind barrier B does so until it has gone the 0.1 m to the end.
-    #[test]
-    fn parts_that_no_beam_has_seen_weigh_on_a_belt_all_the_same() {
-        let lane = Lane { length: 2.0, shares: false, ends: [End::Belt(Default::default()), End::Open] };
-        let geometry = Geometry { lane: Arc::new(lane), stand: vec![1.9], ..rig() };
-        let a = barrier(&[(2.01, 2.61)]);
-        let (script, _) = assign(&geometry, [Some(&a), Some(&barrier(&[]))], &|at| 0.5 * at);
-        let held: Vec<(f64, Surrounding)> = script.told.iter().map(|told| (told.at, told.what)).collect();
-        let expected = [(0.0, 1), (0.2, 0), (1.71, 1), (2.01, 0)];
-        assert_eq!(held.len(), expected.len(), "{held:?}");
-        for ((at, what), (expected, count)) in held.into_iter().zip(expected) {
-            assert!((at - expected).abs() < 0.02 && what == Surrounding::Held(count), "{at} {what:?}");
-        }
     }
 
     #[test]

@@ -7,13 +7,13 @@
 
 use std::sync::Arc;
 
-use super::alone;
-use super::layout::{Beside, Fed};
+use super::layout::Beside;
 use super::parts::{self, Geometry, Origin};
 use super::subject::{Run, SignalInfo, beam_of};
 use super::track::Track;
 use super::way::Way;
 use super::world::{Script, Surrounding, Told};
+use super::{alone, coming};
 use crate::device::{Device, Role, Surface};
 use crate::plant::{ParameterValue, Parameters, Plant};
 use crate::prototype::kind::KindDescriptor;
@@ -62,14 +62,9 @@ pub(super) fn surround(
                 lane: beside.lane.clone(),
                 fed: beside.fed_alone(&belt.barriers),
                 hands: beside.hands.clone(),
-                stand: beside.stand.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
-            let script = of_belt(&geometry, signals, device, beside.way.as_ref(), run);
-            match (&beside.fed, &beside.way) {
-                (Some(fed), Some(way)) => fed_by(fed, way, script),
-                _ => script,
-            }
+            of_belt(&geometry, signals, device, beside, run)
         }
         Role::Pushes(_) => of_pusher(signals, run),
         Role::Holds(cups) if !cups.always_sealed => of_gripper(kind, parameters, signals, run),
@@ -120,14 +115,8 @@ fn barriers(signals: &[SignalInfo]) -> [Option<usize>; 2] {
     [0, 1].map(|beam| signals.iter().position(|info| beam_of(info) == Some(beam)))
 }
 
-/// The parts on a belt. `reported`: how far it went by its own report.
-fn of_belt(
-    geometry: &Geometry,
-    signals: &[SignalInfo],
-    device: &dyn Device,
-    reported: Option<&Way>,
-    run: &mut Run,
-) -> Script {
+/// The parts on a belt.
+fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, beside: &Beside, run: &mut Run) -> Script {
     let places = barriers(signals);
     // By the device's own time: flags are late by what is common to all.
     let late = run.task.age_s + run.task.filter_s;
@@ -142,9 +131,10 @@ fn of_belt(
     let is_better = |way: &&Way| {
         off(way).zip(off(&nominal)).is_some_and(|(reported, law)| law > OFF_M && reported < MUCH_LESS * law)
     };
-    let way = reported.filter(is_better).unwrap_or(&nominal);
+    let way = beside.way.as_ref().filter(is_better).unwrap_or(&nominal);
     let (script, origins) = likeliest_reading(geometry, tracks, &|at| way.at(at));
     let script = Script { beams: geometry.beams, ..script };
+    let script = coming::told_beside(beside, way, script);
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
             track.origins = origins;
@@ -180,26 +170,6 @@ fn likeliest_reading(
         }
     }
     best
-}
-
-/// Parts that a bay has put and no barrier has seen yet are on the belt all the same; they are told beside what is played back as it was
-/// recorded.
-fn fed_by(fed: &Fed, way: &Way, mut script: Script) -> Script {
-    let mut changes: Vec<(f64, i32)> = Vec::new();
-    for (place, cut) in script.cuts.iter().enumerate() {
-        let is_first = !script.cuts[..place].iter().any(|other| other.part == cut.part);
-        if let Some(put) = fed.put(cut.front, cut.from, way).filter(|_| is_first && cut.way > 0.0) {
-            changes.extend([(put, 1), (cut.from, -1)]);
-        }
-    }
-    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut held = 0;
-    script.told.extend(changes.into_iter().map(|(at, by)| {
-        held += by;
-        Told { at, what: Surrounding::Held(held.max(0) as u32), is_on: true }
-    }));
-    script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
-    script
 }
 
 /// How much nearer a belt's own report of its speed must bring what came to its barriers than its law does.
@@ -264,8 +234,7 @@ fn of_gripper(kind: &KindDescriptor, parameters: &Parameters, signals: &[SignalI
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::world::Cut;
-    use crate::gap::{Edge, Grid, TaskId};
+    use crate::gap::{Edge, Grid};
 
     #[test]
     fn an_inverted_barrier_is_read_the_other_way_round() {
@@ -289,7 +258,6 @@ mod tests {
             lane: Arc::default(),
             fed: None,
             hands: Default::default(),
-            stand: Vec::new(),
         };
         let came = |start: f64| [0.0, 6.0, 12.0, 18.0].map(|at| (start + at, start + at + 0.6));
         let (a, b) = (track(&came(1.01)), track(&came(3.81)));
@@ -297,32 +265,5 @@ mod tests {
         let other = likeliest_reading(&geometry, [Some(&a.inverted()), Some(&b)], &|at| 0.5 * at);
         assert_eq!(plain.0.cuts.len(), 8);
         assert_eq!(plain.0.cuts, other.0.cuts);
-    }
-
-    /// A part that a bay put at 0.2 m and the first beam, at 0.7 m, saw at 2 s, the belt at 0.5 m/s; a box that stood in the other
-    /// beam until 1.5 s is played back all the same.
-    #[test]
-    fn parts_on_their_way_weigh_beside_what_is_played_back() {
-        let bay = TaskId { instance: 0, task: 0 };
-        let instants: Vec<f64> = (0..400).map(|k| 0.01 * f64::from(k)).collect();
-        let way = Way { metres: instants.iter().map(|at| 0.5 * at).collect(), instants };
-        let cut = Cut {
-            part: 0,
-            beam: 0,
-            from: 2.0,
-            ahead: 0.0,
-            front: 0.7,
-            way: 1.0,
-            length: 0.3,
-            is_known: false,
-            taken: None,
-        };
-        let beam = |at: f64, is_on: bool| Told { at, what: Surrounding::BarrierB, is_on };
-        let script = Script { cuts: vec![cut], told: vec![beam(0.0, true), beam(1.5, false)], ..Script::default() };
-        let told = fed_by(&Fed { bay, at: 0.2, length: 0.3, is_along: true }, &way, script).told;
-        assert_eq!(told.len(), 4, "{told:?}");
-        assert_eq!((told[0], told[2]), (beam(0.0, true), beam(1.5, false)));
-        assert!(told[1].what == Surrounding::Held(1) && (told[1].at - 1.3).abs() < 0.02, "{told:?}");
-        assert!(told[3].what == Surrounding::Held(0) && told[3].at == 2.0, "{told:?}");
     }
 }

@@ -377,6 +377,35 @@ mod tests {
         assert_eq!(other.cuts, [Cut { length: 0.26, ..cut }, Cut { length: 0.2, ..cut }]);
     }
 
+    /// A part that another hand takes at 2 s is on the belt no longer; one that the belt is to carry stays, also while it stands.
+    #[test]
+    fn what_was_taken_weighs_no_more() {
+        let cut = |part: usize, taken: Option<f64>| Cut {
+            part,
+            beam: 0,
+            from: 1.0,
+            ahead: 0.0,
+            front: 0.3,
+            way: 1.0,
+            length: 0.3,
+            is_known: false,
+            taken,
+        };
+        let lane = Arc::new(Lane { length: 2.0, shares: false, ends: Default::default() });
+        let script = Script { cuts: vec![cut(0, Some(2.0)), cut(1, None)], lane, ..Script::default() };
+        let mut world = World::new(&Arc::new(script)).expect("something passes");
+        let mut device = crate::device::bench::Bench::new("kinetwin.StraightConveyor", &[]).device;
+        world.begin(device.as_mut());
+        let parts = |world: &World| world.riders.iter().map(|rider| rider.part).collect::<Vec<_>>();
+        assert!(parts(&world).is_empty());
+        assert!(world.advance(&mut device, 0.0, 1.0));
+        assert_eq!(parts(&world), [0, 1]);
+        world.advance(&mut device, 1.0, 1.9);
+        assert_eq!(parts(&world), [0, 1]);
+        world.advance(&mut device, 1.9, 2.1);
+        assert_eq!(parts(&world), [1]);
+    }
+
     /// A beam 10 mm further on is reached 10 mm later, whichever way the belt runs; that by which a part was first seen is where it is.
     #[test]
     fn beams_that_are_further_apart_are_reached_later() {

@@ -4,7 +4,8 @@
 //! of its parameters moves the residuals along a direction, and along that direction alone it could take away
 //! (d·r)²/|d|², how far it moves them being a matter of its parameter. Starts that move them next to nothing, or further than the
 //! whole gap, are not looked at. Only what promises something is fitted, and only what then explains a part of what the best
-//! explains is fitted closely.
+//! explains is fitted closely. Where the first part of the recordings shows enough of the gap, all of that is done on it alone, and what is
+//! found there is fitted to the whole.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::blur;
 use super::candidate::Candidate;
-use super::ladder::{NEAR_THE_BEST, Progress, Tell, anew};
+use super::ladder::{NEAR_THE_BEST, Progress, Standing, Tell, anew};
 use super::library;
 use super::starts::UNLIMITED;
 use super::tangent::{Beside, Tangent, product};
@@ -49,7 +50,11 @@ pub fn rung(
     let blurred = blur::blurred(bench.subject, &score);
     let is_smooth = !bench.is_rugged() && is_in_levels(&score);
     let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
-    let looks = Looks { bench, below, tangent, blurred: &blurred, afar, excess, is_smooth };
+    let whole = Looks { bench, below, tangent, blurred: &blurred, afar, excess, is_smooth };
+    let early = if is_smooth { Early::of(bench, below, excess) } else { None };
+    let early_bench = early.as_ref().map(|early| bench.with(&early.subject));
+    let early_looks = early.as_ref().zip(early_bench.as_ref()).and_then(|(early, bench)| early.looks(bench));
+    let looks = early_looks.as_ref().unwrap_or(&whole);
     let counter = Counter { device: &bench.subject.name, of: library.len(), tell, told: Default::default() };
     // One candidate may take as long as many others: each is a piece of work of its own.
     let glances: Vec<Glance> = library
@@ -71,7 +76,7 @@ pub fn rung(
     let fitted = glances.into_par_iter().with_max_len(1).filter_map(|glance| match is_worth_a_fit(&glance) {
         true => {
             let fitted = looks.fit(glance)?;
-            counter.count(Some((&fitted.candidate, fitted.gain / excess)));
+            counter.count(Some((&fitted.candidate, fitted.gain / looks.excess)));
             Some(fitted)
         }
         false => {
@@ -85,11 +90,18 @@ pub fn rung(
     let most = fitted.iter().map(|glance| glance.gain).fold(0.0, f64::max);
     // Where slopes lead nowhere, what a few steps downhill gain says little.
     let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
-    let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| match is_near(&glance) {
-        true => looks.fit_closely(&glance),
-        false if glance.candidate.free.is_empty() => looks.trial_at(&glance, &[]),
-        // What promised little gets no nominal parameters of its own.
-        false => bench.trial(&glance.set, looks.all(&glance, &glance.at)),
+    let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| {
+        let is_near = is_near(&glance);
+        let glance = match early.is_some() {
+            true => whole.again(if is_near { looks.closely(glance)? } else { glance }),
+            false => glance,
+        };
+        match is_near {
+            true => whole.fit_closely(glance, early.is_some()),
+            false if glance.candidate.free.is_empty() => whole.trial_at(&glance, &[]),
+            // What promised little gets no nominal parameters of its own.
+            false => bench.trial(&glance.set, whole.all(&glance, &glance.at)),
+        }
     });
     distinct(trials.collect())
 }
@@ -209,6 +221,39 @@ impl Counter<'_> {
             best: best.1.clone().unwrap_or_else(|| "none yet".to_owned()),
             explains: best.0,
         });
+    }
+}
+
+/// Which part of each recording a rung begins with; the share of the gap that it must show, and how much that must be at least, as a square in
+/// standard deviations: what is there from the beginning shows its part there, what comes later does not.
+const EARLY: f64 = 1.0 / 3.0;
+const LEAST_EARLY: f64 = 0.2;
+const ENOUGH_EARLY: f64 = 300.0;
+
+/// The first part of a device's recordings.
+struct Early {
+    subject: Subject,
+    below: Trial,
+    excess: f64,
+}
+
+impl Early {
+    /// `None` where it does not show enough of what there is to explain.
+    fn of(bench: &Bench<'_>, below: &Trial, excess: f64) -> Option<Early> {
+        let all = Standing::of_trial(bench, below)?.excess(below.cost);
+        let subject = bench.subject.early(EARLY);
+        let there = bench.with(&subject);
+        let first = there.trial(&below.set, below.at.clone())?;
+        let share = Standing::of_trial(&there, &first)?.excess(first.cost) / all;
+        let shows = share >= LEAST_EARLY && share * excess >= ENOUGH_EARLY;
+        shows.then_some(Early { subject, below: first, excess: share * excess })
+    }
+
+    /// The looks at it; `bench` is of its subject.
+    fn looks<'a>(&'a self, bench: &'a Bench<'a>) -> Option<Looks<'a>> {
+        let tangent = Tangent::new(bench, &self.below)?;
+        let excess = self.excess;
+        Some(Looks { bench, below: &self.below, tangent, blurred: &[], afar: None, excess, is_smooth: true })
     }
 }
 
@@ -473,27 +518,44 @@ impl Looks<'_> {
         glance.at_the_best_of(looks)
     }
 
-    /// A few steps downhill.
+    /// A few steps downhill, and whether that is worth a closer look.
     fn fit(&self, glance: Glance) -> Option<Glance> {
-        let glance = self.sharpened(glance)?;
+        let glance = self.downhill(self.sharpened(glance)?)?;
+        Some(Glance { is_promising: glance.gain > PROMISING * self.excess, ..glance })
+    }
+
+    /// Where it costs least of what is found from its best starts.
+    fn closely(&self, glance: Glance) -> Option<Glance> {
+        let ranges: Vec<_> = glance.candidate.ranges().collect();
+        let residuals = |at: &[f64]| self.residuals(&glance, at);
+        let starts: Vec<Vec<f64>> = [&glance.at].into_iter().chain(&glance.others).cloned().collect();
+        let effort = Effort { starts: 2, budget: 20 + 12 * ranges.len() as u32 };
+        let at = search(&residuals, &starts, &ranges, effort)?.at;
+        Some(Glance { at, ..glance })
+    }
+
+    /// What was found on a part of the recordings, as these are looked at.
+    fn again(&self, glance: Glance) -> Glance {
+        Glance { beside: self.tangent.beside(self.bench, &glance.set), ..glance }
+    }
+
+    /// The candidate with the nuisances beside it; `is_near`: a part of the recordings has led it to where a few steps are enough.
+    fn fit_closely(&self, glance: Glance, is_near: bool) -> Option<Trial> {
+        if self.bench.is_rugged() {
+            let start = self.all(&glance, &glance.at);
+            return self.bench.fit(&glance.set, &[start], anew(self.bench.ranges(&glance.set).len()));
+        }
+        let glance = if is_near { self.downhill(glance)? } else { self.closely(glance)? };
+        self.trial_at(&glance, &glance.at)
+    }
+
+    /// A few steps downhill from where it stands.
+    fn downhill(&self, glance: Glance) -> Option<Glance> {
         let ranges: Vec<_> = glance.candidate.ranges().collect();
         let residuals = |at: &[f64]| self.residuals(&glance, at);
         let fitted = least_squares(&residuals, &glance.at, &ranges, 4 + 4 * ranges.len() as u32)?;
         let gain = sum_of_squares(&glance.beside.here) - fitted.cost;
-        Some(Glance { is_promising: gain > PROMISING * self.excess, at: fitted.at, gain, ..glance })
-    }
-
-    fn fit_closely(&self, glance: &Glance) -> Option<Trial> {
-        let ranges: Vec<_> = glance.candidate.ranges().collect();
-        if self.bench.is_rugged() {
-            let start = self.all(glance, &glance.at);
-            return self.bench.fit(&glance.set, &[start], anew(self.bench.ranges(&glance.set).len()));
-        }
-        let residuals = |at: &[f64]| self.residuals(glance, at);
-        let starts: Vec<Vec<f64>> = [&glance.at].into_iter().chain(&glance.others).cloned().collect();
-        let effort = Effort { starts: 2, budget: 20 + 12 * ranges.len() as u32 };
-        let found = search(&residuals, &starts, &ranges, effort)?;
-        self.trial_at(glance, &found.at)
+        Some(Glance { at: fitted.at, gain, ..glance })
     }
 
     /// With the nuisances at their nominal values: of an effect without a parameter, which leaves next to nothing or nearly everything, so

@@ -114,6 +114,10 @@ fn further(
     for _ in 0..TIMES {
         let there = ranges[j].clamp(at[j] + side * step);
         let moved = there - at[j];
+        // At its bound it goes no further.
+        if moved == 0.0 {
+            break;
+        }
         let others: Vec<usize> = (0..ranges.len()).filter(|k| *k != j).collect();
         let start: Vec<f64> = others.iter().map(|k| ranges[*k].clamp(at[*k] + follow[*k] * moved)).collect();
         let near: Vec<Range> = others.iter().map(|k| Range { scale: scales[*k], ..ranges[*k] }).collect();
@@ -123,7 +127,7 @@ fn further(
             whole
         };
         let found = simplex(&mut |others: &[f64]| cost(&whole(others)), &start, &near, 0.3, TRIALS);
-        if moved != 0.0 && found.cost - best.cost <= rise {
+        if found.cost - best.cost <= rise {
             (at, step) = (whole(&found.at), GROWS[0] * step);
         } else {
             step *= GROWS[1];

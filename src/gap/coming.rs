@@ -1,0 +1,116 @@
+//! Parts that weigh on a belt though none of its beams has seen them: those on their way to the first one, and those behind the last one
+//! from the start.
+
+use super::lane::End;
+use super::layout::Beside;
+use super::way::Way;
+use super::world::{Cut, Script, Surrounding, Told};
+
+/// How finely it is told when a part came or left, s.
+const STEP_S: f64 = 0.01;
+
+/// A belt's script, with how many parts no beam sees told beside what it tells already: each that comes from a bay or from the belt before,
+/// from when its middle was on this one until a beam saw it, and each that stood behind the last beam until it leaves. `way` is how far
+/// the belt went.
+pub(super) fn told_beside(beside: &Beside, way: &Way, mut script: Script) -> Script {
+    let ends = way.instants.last().copied().unwrap_or(0.0);
+    let mut changes: Vec<(f64, i32)> = Vec::new();
+    for centre in stand_unseen(beside, &script) {
+        let left = first(0.0, ends, |at| way.at(at) - way.at(0.0) >= beside.lane.length - centre);
+        changes.extend([(0.0, 1)].into_iter().chain(left.map(|left| (left, -1))));
+    }
+    // Every part once: by the beam that saw it first.
+    for cut in script.cuts.iter().filter(|cut| cut.ahead == 0.0) {
+        let Some(metres) = unseen_way(beside, cut) else { continue };
+        let gone = |at: f64| cut.way * (way.at(cut.from) - way.at(at));
+        if let Some(since) = first(0.0, cut.from, |before| gone(cut.from - before) >= metres) {
+            changes.extend([(cut.from - since, 1), (cut.from, -1)]);
+        }
+    }
+    changes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut held = 0;
+    script.told.extend(changes.into_iter().map(|(at, by)| {
+        held += by;
+        Told { at, what: Surrounding::Held(held.max(0) as u32), is_on: held > 0 }
+    }));
+    script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
+    script
+}
+
+/// The first instant between two, to a step, at which something is so.
+fn first(from: f64, to: f64, is_so: impl Fn(f64) -> bool) -> Option<f64> {
+    let steps = ((to - from) / STEP_S) as u32;
+    (0..=steps).map(|step| from + STEP_S * f64::from(step)).find(|at| is_so(*at))
+}
+
+/// Where the parts have their middles that stand behind the last beam at the start, m from the belt's; none where nobody knows what lies
+/// at its end, so that they are this belt's wherever they are.
+fn stand_unseen<'a>(beside: &'a Beside, script: &Script) -> impl Iterator<Item = f64> + use<'a> {
+    let last = script.beams.iter().flatten().copied().fold(0.0, f64::max);
+    let is_shown = beside.lane.ends[1] != End::Unknown;
+    beside.stand.iter().copied().filter(move |centre| is_shown && *centre > last)
+}
+
+/// How far a part went on this belt before its first beam saw it, m: from where its bay put it, or from the belt before.
+fn unseen_way(beside: &Beside, cut: &Cut) -> Option<f64> {
+    let fed = beside.fed.filter(|_| cut.way > 0.0).map(|fed| cut.front - fed.at - 0.5 * fed.length);
+    let comes_from_belt =
+        matches!(beside.lane.ends[usize::from(cut.way < 0.0)], End::Belt(_)) && cut.length.is_finite();
+    let from_belt = comes_from_belt.then(|| {
+        let centre = cut.front - 0.5 * cut.way * cut.length;
+        if cut.way > 0.0 { centre } else { beside.lane.length - centre }
+    });
+    [fed, from_belt].into_iter().flatten().find(|metres| *metres > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::gap::TaskId;
+    use crate::gap::lane::Lane;
+    use crate::gap::layout::Fed;
+
+    /// A belt that always runs at 0.5 m/s.
+    fn way() -> Way {
+        let instants: Vec<f64> = (0..400).map(|k| 0.01 * f64::from(k)).collect();
+        Way { metres: instants.iter().map(|at| 0.5 * at).collect(), instants }
+    }
+
+    /// A part that a beam saw at 2 s.
+    fn seen_at(front: f64) -> Cut {
+        Cut { part: 0, beam: 0, from: 2.0, ahead: 0.0, front, way: 1.0, length: 0.3, is_known: false, taken: None }
+    }
+
+    fn assert_held(told: &[Told], expected: &[(f64, u32)]) {
+        assert_eq!(told.len(), expected.len(), "{told:?}");
+        for (told, (at, count)) in told.iter().zip(expected) {
+            assert!((told.at - at).abs() < 0.02 && told.what == Surrounding::Held(*count), "{told:?}");
+        }
+    }
+
+    /// One that a bay put at 0.2 m and the first beam, at 0.7 m, saw; a box that stood in the other beam until 1.5 s is played back all the
+    /// same.
+    #[test]
+    fn what_a_bay_put_weighs_beside_what_is_played_back() {
+        let bay = TaskId { instance: 0, task: 0 };
+        let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true });
+        let beam = |at: f64, is_on: bool| Told { at, what: Surrounding::BarrierB, is_on };
+        let told = vec![beam(0.0, true), beam(1.5, false)];
+        let script = Script { cuts: vec![seen_at(0.7)], told, ..Script::default() };
+        let mut told = told_beside(&Beside { fed, ..Beside::default() }, &way(), script).told;
+        assert_eq!([told.remove(0), told.remove(1)], [beam(0.0, true), beam(1.5, false)]);
+        assert_held(&told, &[(1.3, 1), (2.0, 0)]);
+    }
+
+    /// One that comes from a belt before weighs from when its middle is on this one: 0.15 m at 0.5 m/s. One that stood behind barrier B does
+    /// so until it has gone the 0.1 m to the end; one before it is seen there.
+    #[test]
+    fn what_comes_from_a_belt_before_and_what_stood_there_weigh() {
+        let lane = Lane { length: 2.0, shares: false, ends: [End::Belt(Default::default()), End::Open] };
+        let beside = Beside { lane: Arc::new(lane), stand: vec![1.9, 1.2], ..Beside::default() };
+        let script = Script { cuts: vec![seen_at(0.3)], beams: [Some(0.3), Some(1.7)], ..Script::default() };
+        assert_held(&told_beside(&beside, &way(), script).told, &[(0.0, 1), (0.2, 0), (1.7, 1), (2.0, 0)]);
+    }
+}
