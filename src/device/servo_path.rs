@@ -60,16 +60,12 @@ pub(super) struct Way<'a> {
 impl Way<'_> {
     /// Moves the axis by the stretch that ends at `moment`.
     pub fn advance(&mut self, moment: Moment) {
-        let longest = if self.stages.shapes_effort() { EFFORT_STRETCH_S } else { f64::INFINITY };
-        let is_uneven = self.stages.mechanics.uneven() > 0.0;
-        let (mut rest, mut next) = (moment.span, longest);
+        let mut rest = moment.span;
         while rest > 0.0 {
-            let span = rest.min(next);
+            let span = if self.stages.shapes_effort() { rest.min(EFFORT_STRETCH_S) } else { rest };
             rest -= span;
             let taken = self.stretch(Moment { now: moment.now - rest, span });
             rest += span - taken;
-            // Where friction changed too much for a longer stretch it does so in the next one, too.
-            next = if is_uneven { longest.min(2.0 * taken.max(SHORTEST_S)) } else { longest };
         }
     }
 

@@ -44,9 +44,8 @@ impl Stage for PositionDependentFriction {
         Box::new(self.clone())
     }
 
-    /// Where it changes much within that, the axis goes on in shorter ones.
     fn stretch(&self) -> f64 {
-        5e-3
+        1e-3
     }
 
     fn uneven(&self) -> f64 {

@@ -498,24 +498,6 @@ mod tests {
         assert!(is_sure, "{best:?}");
     }
 
-    /// A belt that carries 0.994 of its way loses 0.006, and friction of 30 N is 30 N; of an effect that is not there nothing is.
-    #[test]
-    fn an_effect_s_amount_is_what_it_is_beyond_doing_nothing() {
-        let (subject, nominal, rubs) = rubbing_axis();
-        let scales = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "scale");
-        let scale = scales.into_iter().find(|candidate| candidate.component.as_deref() == Some("positionActual"));
-        let stop = || false;
-        let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
-        let of = |set: &[Candidate], value: f64| {
-            amount(&bench.trial(set, [vec![value], bench.nominal(set)].concat()).expect("a trial"))
-        };
-        assert_eq!(of(&rubs, 30.0), Some((0.0, 30.0)));
-        assert_eq!(of(&rubs, 0.0), None);
-        let (nothing, amount_of_scale) = of(&[scale.expect("a scale")], 0.994).expect("a scale that is off");
-        assert!(nothing == 1.0 && (amount_of_scale + 0.006).abs() < 1e-12, "{nothing} {amount_of_scale}");
-        assert_eq!(amount(&bench.trial(&[], bench.nominal(&[])).expect("a trial")), None);
-    }
-
     /// A play of which nobody would notice that it is gone excuses nothing that is left beside it.
     #[test]
     fn friction_leaves_no_more_than_it_explains() {
