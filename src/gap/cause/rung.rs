@@ -51,10 +51,10 @@ pub fn rung(
     let is_smooth = !bench.is_rugged() && is_in_levels(&score);
     let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
     let whole = Looks { bench, below, tangent, blurred: &blurred, afar, excess, is_smooth };
-    let early = if is_smooth { Early::of(bench, below, excess) } else { None };
+    let early = is_smooth.then(|| Early::of(bench, below, excess)).flatten();
     let early_bench = early.as_ref().map(|early| bench.with(&early.subject));
     let early_looks = early.as_ref().zip(early_bench.as_ref()).and_then(|(early, bench)| early.looks(bench));
-    let looks = early_looks.as_ref().unwrap_or(&whole);
+    let (looks, is_part) = (early_looks.as_ref().unwrap_or(&whole), early_looks.is_some());
     let counter = Counter { device: &bench.subject.name, of: library.len(), tell, told: Default::default() };
     // One candidate may take as long as many others: each is a piece of work of its own.
     let glances: Vec<Glance> = library
@@ -92,12 +92,12 @@ pub fn rung(
     let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
     let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| {
         let is_near = is_near(&glance);
-        let glance = match early.is_some() {
+        let glance = match is_part {
             true => whole.again(if is_near { looks.closely(glance)? } else { glance }),
             false => glance,
         };
         match is_near {
-            true => whole.fit_closely(glance, early.is_some()),
+            true => whole.fit_closely(glance, is_part),
             false if glance.candidate.free.is_empty() => whole.trial_at(&glance, &[]),
             // What promised little gets no nominal parameters of its own.
             false => bench.trial(&glance.set, whole.all(&glance, &glance.at)),
