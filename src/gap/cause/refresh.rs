@@ -27,6 +27,8 @@ const HOLDS: Range<f64> = 0.5..1.5;
 const LEAST_SHARE: f64 = 0.1;
 /// Of what a period would do so much must be more than being late by the same (a quarter, where reports come at any time of it).
 const LEAST_OWN: f64 = 0.05;
+/// Within a shorter period than this a machine moves along a line between two of its reports, near enough for a first look, s.
+const STRAIGHT_S: f64 = 5e-3;
 /// By which part of itself over all its turns a period is found to begin with.
 const PART: f64 = 0.12;
 
@@ -102,8 +104,13 @@ fn period_of(ways: &[Way], mut samples: Vec<Late>, longest: f64) -> Option<f64> 
     let mut best = (0.0, 0.0);
     let mut period = (1.7 * late).clamp(SHORTEST_S, ALL_S);
     while period < longest {
-        if share(ways, &fewer, period) > AT_A_GLANCE * best.0 {
-            let share = share(ways, &few, period);
+        let is_straight = period < STRAIGHT_S;
+        let shows = |samples: &[Late]| match is_straight {
+            true => share_by(samples, period, |Late { at, speed, .. }, told| (told - at) * speed),
+            false => share(ways, samples, period),
+        };
+        if shows(&fewer) > AT_A_GLANCE * best.0 {
+            let share = shows(&few);
             best = if share > best.0 { (share, period) } else { best };
         }
         period += PART * period * period / end;
@@ -123,11 +130,16 @@ fn period_of(ways: &[Way], mut samples: Vec<Late>, longest: f64) -> Option<f64> 
 /// Which share of the errors' squares goes with what a period would do, beyond what goes with being late by the same each time; 0 where it
 /// would do much more or less.
 fn share(ways: &[Way], samples: &[Late], period: f64) -> f64 {
+    share_by(samples, period, |Late { at, way, .. }, told| ways[*way].at(told) - ways[*way].at(*at))
+}
+
+/// The same where `does` says by how much a sample is another that tells of an instant before.
+fn share_by(samples: &[Late], period: f64, does: impl Fn(&Late, f64) -> f64) -> f64 {
     let (mut off_does, mut off_speed, mut does_speed) = (0.0, 0.0, 0.0);
     let (mut off_off, mut does_does, mut speed_speed) = (0.0, 0.0, 0.0);
-    for Late { at, off, speed, way } in samples {
-        let way = &ways[*way];
-        let does = way.at((at / period).floor() * period) - way.at(*at);
+    for sample in samples {
+        let Late { at, off, speed, .. } = sample;
+        let does = does(sample, (at / period).floor() * period);
         off_does += off * does;
         off_speed += off * speed;
         does_speed += does * speed;

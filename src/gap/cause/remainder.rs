@@ -498,6 +498,21 @@ mod tests {
         assert!(is_sure, "{best:?}");
     }
 
+    /// Of a gain what it is beyond 1 goes with time, of a friction all of it; a gain of 1 does nothing.
+    #[test]
+    fn an_amount_is_how_far_a_parameter_is_from_doing_nothing() {
+        let (subject, nominal, rubs) = rubbing_axis();
+        let gains = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "gain");
+        let gains = vec![gains.into_iter().next().expect("a sensor's gain")];
+        let stop = || false;
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let of = |set: &[Candidate], value: f64| amount(&bench.trial(set, vec![value]).expect("a trial"));
+        let (at_nothing, beyond) = of(&gains, 1.006).expect("an amount");
+        assert!(at_nothing == 1.0 && (beyond - 0.006).abs() < 1e-12, "{beyond}");
+        assert_eq!(of(&rubs, 30.0), Some((0.0, 30.0)));
+        assert_eq!(of(&gains, 1.0), None);
+    }
+
     /// A play of which nobody would notice that it is gone excuses nothing that is left beside it.
     #[test]
     fn friction_leaves_no_more_than_it_explains() {
