@@ -10,8 +10,9 @@ use rayon::prelude::*;
 use super::cause::Bare;
 use super::edges::interval;
 use super::grid::median;
-use super::locate::{THRESHOLD, evidence};
+use super::locate::{THRESHOLD, are_levels_off, evidence};
 use super::prediction::{Predicted, Prediction};
+use super::score::Score;
 use super::subject::{Subject, beam_of};
 use super::task::{LEAST_DEVICES, LEAST_SQUARE, NEARER, Task};
 
@@ -92,21 +93,17 @@ pub(super) fn find_beside_parameters(
     nominal: &[Prediction],
     bare: &mut [Bare],
 ) -> Option<f64> {
-    let has_flags = |subject: &Subject| {
-        let flag = |info: &super::subject::SignalInfo| subject.is_filtered(info) && beam_of(info).is_none();
-        subject.signals.iter().any(flag)
-    };
-    let flagged: Vec<usize> = (0..subjects.len()).filter(|at| has_flags(&subjects[*at])).collect();
+    let flagged = with_a_say(subjects, bare);
     if flagged.is_empty() {
         return None;
     }
-    let costs = |subjects: &[Subject], bare: &[Bare]| -> Vec<f64> {
-        let each = subjects.iter().zip(bare);
-        each.map(|(subject, bare)| subject.score(&bare.prediction).total).collect()
+    let scores = |subjects: &[Subject], bare: &[Bare]| -> Vec<Score> {
+        subjects.iter().zip(bare).map(|(subject, bare)| subject.score(&bare.prediction)).collect()
     };
+    let total = |scores: &[Score]| scores.iter().map(|score| score.total).sum::<f64>();
     let picked: Vec<Subject> = flagged.iter().map(|at| subjects[*at].clone()).collect();
     let known: Vec<Bare> = flagged.iter().map(|at| bare[*at].clone()).collect();
-    let before = costs(&picked, &known);
+    let before = scores(&picked, &known);
     // Of a device that reports levels they say what its nominal parameters are, whatever becomes of its flags: while filters are tried those
     // stay as they are, and are fitted beside the best of them.
     let have_levels: Vec<bool> = picked.iter().map(|subject| subject.has_levels()).collect();
@@ -122,10 +119,11 @@ pub(super) fn find_beside_parameters(
             (subject, bare)
         });
         let (subjects, bare): (Vec<Subject>, Vec<Bare>) = each.collect::<Vec<_>>().into_iter().unzip();
-        let after = costs(&subjects, &bare);
-        let further = before.iter().zip(&after).map(|(before, after)| after - before).fold(0.0, f64::max);
-        let cost: f64 = after.iter().sum();
-        let nearer = before.iter().sum::<f64>() - cost;
+        let after = scores(&subjects, &bare);
+        let cost = total(&after);
+        let further =
+            before.iter().zip(&after).map(|(before, after)| of_flags(after) - of_flags(before)).fold(0.0, f64::max);
+        let nearer = total(&before) - cost;
         let cost = if further > NOT_FURTHER + SHARE_NOT_FURTHER * nearer { f64::INFINITY } else { cost };
         Tried { filter_s, cost, bare }
     };
@@ -137,7 +135,7 @@ pub(super) fn find_beside_parameters(
         let about = best.filter_s;
         best = shares.into_iter().map(|share| under(share * about)).fold(best, nearer);
     }
-    if before.iter().sum::<f64>() - best.cost <= THRESHOLD {
+    if total(&before) - best.cost <= THRESHOLD {
         return None;
     }
     if have_levels.contains(&true) {
@@ -155,10 +153,30 @@ pub(super) fn find_beside_parameters(
         return None;
     }
     subjects.iter_mut().for_each(|subject| set(subject, best.filter_s));
+    for (subject, bare) in subjects.iter().zip(bare.iter_mut()) {
+        *bare = bare.held(subject);
+    }
     for (at, found) in flagged.into_iter().zip(best.bare) {
         bare[at] = found;
     }
     Some(best.filter_s)
+}
+
+/// The devices whose flags tell of a filter. One whose levels are off is so whatever the filter is, and when its flags come goes with that.
+fn with_a_say(subjects: &[Subject], bare: &[Bare]) -> Vec<usize> {
+    let has_flags = |subject: &Subject| {
+        let flag = |info: &super::subject::SignalInfo| subject.is_filtered(info) && beam_of(info).is_none();
+        subject.signals.iter().any(flag)
+    };
+    let has_say = |at: &usize| has_flags(&subjects[*at]) && !are_levels_off(&subjects[*at], &bare[*at].prediction);
+    (0..subjects.len()).filter(has_say).collect()
+}
+
+/// What a device's flags cost above their floors. What comes just before a look that shows it costs something too, the more the nearer, and
+/// is not off.
+fn of_flags(score: &Score) -> f64 {
+    let flags = score.signals.iter().filter(|signal| signal.level.is_none());
+    flags.map(|signal| (signal.cost - signal.floor_cost.0).max(0.0)).sum()
 }
 
 /// Sets the filter of all runs.
@@ -176,19 +194,56 @@ mod tests {
 
     use super::*;
     use crate::device::KINDS;
+    use crate::gap::score::SignalScore;
     use crate::gap::{Overrides, Recording, Study};
     use crate::plant::{self, embedded::Embedded};
     use crate::trace::Reader;
+
+    fn study() -> Study {
+        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
+        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
+        Study::new(&plant, &[recording]).expect("a study")
+    }
+
+    /// A motor that is faster is so under any filter.
+    #[test]
+    fn a_device_whose_levels_are_off_has_no_say() {
+        let mut study = study();
+        let named = |study: &Study| -> Vec<String> {
+            with_a_say(&study.subjects, &study.bare).iter().map(|at| study.subjects[*at].name.clone()).collect()
+        };
+        let before = named(&study);
+        assert!(before.contains(&"Motor".to_owned()) && before.contains(&"Pusher".to_owned()), "{before:?}");
+        let motor = study.subjects.iter_mut().find(|subject| subject.name == "Motor").expect("the motor");
+        let tracks = motor.runs.iter_mut().flat_map(|run| run.tracks.iter_mut().flatten());
+        tracks.for_each(|track| track.values.iter_mut().for_each(|value| *value *= 1.2));
+        let others: Vec<String> = before.into_iter().filter(|name| name != "Motor").collect();
+        assert_eq!(named(&study), others);
+    }
+
+    #[test]
+    fn what_flags_cost_by_chance_is_not_off() {
+        let of = |cost: f64, level: Option<crate::gap::LevelScore>| SignalScore {
+            signal: 0,
+            run: 0,
+            cost,
+            floor_cost: (50.0, 20.0),
+            rms: 0.0,
+            floor: 0.0,
+            level,
+            edges: Vec::new(),
+        };
+        let score = |cost: f64| Score::of(vec![of(cost, None), of(1000.0, Some(crate::gap::LevelScore::default()))]);
+        assert_eq!([46.0, 49.0, 60.0].map(|cost| of_flags(&score(cost))), [0.0, 0.0, 10.0]);
+    }
 
     /// Of a pusher that is a per cent slow no edge asks for a filter before its speed is known, and for none of its speeds without it. What
     /// edges asked for with the nominal speeds may be less than half of what it is.
     #[test]
     fn a_filter_is_found_with_the_speeds_that_it_hides_whatever_was_known_of_it() {
-        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
-        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
-        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
-        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
-        let study = Study::new(&plant, &[recording]).expect("a study");
+        let study = study();
         for known in [0.0, 1.5e-4] {
             let mut subjects = study.subjects.clone();
             subjects.iter_mut().for_each(|subject| set(subject, known));

@@ -118,6 +118,12 @@ pub fn evidence(subject: &Subject, prediction: &Prediction) -> f64 {
     signals(subject, prediction, &score).iter().map(|signal| signal.evidence).fold(0.0, f64::max)
 }
 
+/// Whether a level is off that a device reports.
+pub(super) fn are_levels_off(subject: &Subject, prediction: &Prediction) -> bool {
+    let score = subject.score(prediction);
+    signals(subject, prediction, &score).iter().any(|signal| signal.kind == "level" && signal.is_off())
+}
+
 fn signals(subject: &Subject, nominal: &Prediction, score: &Score) -> Vec<LocatedSignal> {
     let of = |place: usize| {
         let of: Vec<&SignalScore> = score.signals.iter().filter(|signal| signal.signal == place).collect();
