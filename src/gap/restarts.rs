@@ -63,7 +63,7 @@ impl Subject {
         let travels = self.restart_at(signal, None);
         let remembers = self.remembers(signal, &travels)?;
         if !remembers {
-            self.runs.iter_mut().for_each(|run| run.restarts = None);
+            self.leave_alone();
         }
         Ok(remembers)
     }
@@ -78,7 +78,7 @@ impl Subject {
         if other.is_taken_up_again() {
             *self = self.in_windows().in_one_go();
         } else {
-            self.runs.iter_mut().for_each(|run| run.restarts = None);
+            self.leave_alone();
         }
         was || other.is_taken_up_again()
     }
@@ -121,6 +121,11 @@ impl Subject {
         if reach.is_finite() {
             self.runs.iter_mut().for_each(|run| run.floors[signal].reach = reach);
         }
+    }
+
+    /// Replays it in one go, as any other.
+    pub(super) fn leave_alone(&mut self) {
+        self.runs.iter_mut().for_each(|run| run.restarts = None);
     }
 
     fn position_signal(&self) -> Option<usize> {

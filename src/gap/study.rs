@@ -184,6 +184,12 @@ impl Study {
                 *bare = bare.again(subject, nominal);
             }
         });
+        let each = self.subjects.par_iter_mut().zip(&mut self.nominal).zip(&mut self.bare).with_max_len(1);
+        each.for_each(|((subject, nominal), bare)| {
+            if let Some(whole) = explained_in_one_go(subject, bare) {
+                (*subject, *nominal, *bare) = whole;
+            }
+        });
         let is_off = |(subject, bare): (&Subject, &Bare)| evidence(subject, &bare.prediction) > THRESHOLD;
         // What we recorded ourselves passed none.
         let is_machine = recordings.iter().all(|recording| recording.step().is_none());
@@ -312,6 +318,20 @@ fn calibrate(subject: &mut Subject) -> Result<Prediction, EffectError> {
     let nominal = subject.predict(&[], &Overrides::none())?;
     subject.find_reach(&nominal);
     Ok(nominal)
+}
+
+/// A device that is taken up again and again and is off then, in one go: where its nominal parameters, as they were found, explain it so, what
+/// was off is where its windows begin. Of an axis that forgets within half of one that is worse than what its model lacks.
+fn explained_in_one_go(subject: &Subject, bare: &Bare) -> Option<(Subject, Prediction, Bare)> {
+    if !subject.is_taken_up_again() || evidence(subject, &bare.prediction) <= THRESHOLD {
+        return None;
+    }
+    let mut whole = subject.clone();
+    whole.leave_alone();
+    let nominal = whole.predict(&[], &Overrides::none()).ok()?;
+    whole.find_floors(&bare.held(&whole).prediction, Timing::AsFound);
+    let found = bare.again(&whole, &nominal);
+    (evidence(&whole, &found.prediction) <= THRESHOLD).then_some((whole, nominal, found))
 }
 
 /// What a belt with a gap of its own does with the parts that it takes over is seen from both sides: a belt before it takes how far
