@@ -106,6 +106,10 @@ pub(super) fn assign(
             }
         }
     }
+    let ends = tracks.iter().flatten().filter_map(|track| track.grid.instants.last()).copied().fold(0.0, f64::max);
+    for cut in script.cuts.iter_mut().filter(|cut| cut.taken.is_none()) {
+        cut.taken = fell_off(geometry, &seen, cut, travel, ends);
+    }
     script.cuts.sort_by(|a, b| a.from.total_cmp(&b.from));
     script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
     (script, origins)
@@ -217,6 +221,34 @@ fn comes_again(geometry: &Geometry, first: &Seen, left: &Left, cut: &Seen, trave
     };
     let steps = ((cut.from - left.at) / STEP_S).ceil().max(1.0);
     (0..=steps as u32).all(|step| stays_on(left.at + (cut.from - left.at) * f64::from(step) / steps))
+}
+
+/// When the part of a cut left the belt at an open end: it came so near to that, the belt then took back what it had, and no beam saw the part
+/// again until the recording `ends`, s.
+fn fell_off(geometry: &Geometry, seen: &[Seen], cut: &Cut, travel: &dyn Fn(f64) -> f64, ends: f64) -> Option<f64> {
+    const STEP_S: f64 = 0.02;
+    let of_part = || seen.iter().filter(|seen| seen.part == Some(cut.part));
+    let last = of_part().max_by(|a, b| a.to.total_cmp(&b.to)).filter(|last| last.to.is_finite())?;
+    let first = of_part().find(|first| first.beam == last.beam)?;
+    let front = geometry.beams[last.beam].filter(|_| cut.length.is_finite())?;
+    let centre = |at: f64| front + first.way * (first.way * (travel(at) - first.start) - 0.5 * cut.length);
+    // It left the beam towards one of the ends.
+    let towards = if centre(last.to) > front { 1.0 } else { -1.0 };
+    let end = usize::from(towards > 0.0);
+    let border = if towards > 0.0 { geometry.lane.length } else { 0.0 };
+    let left = |at: f64| towards * (border - centre(at));
+    let (mut nearest, mut when) = (left(last.to), last.to);
+    for step in 1..=((ends - last.to) / STEP_S).max(0.0) as u32 {
+        let at = last.to + STEP_S * f64::from(step);
+        let now = left(at);
+        if now < nearest {
+            (nearest, when) = (now, at);
+        }
+        if now > left(last.to) + PASSES_M {
+            return (geometry.lane.ends[end] == End::Open && nearest < GATE_M).then_some(when);
+        }
+    }
+    None
 }
 
 /// By which factors a belt may carry less or more than nominally; the nearest to 1 first.
@@ -486,6 +518,19 @@ mod tests {
         assert_eq!(origins[0][2..], [Origin::Part(1); 2]);
         assert_eq!(origins[1], [Origin::Part(1); 2]);
         assert_eq!(script.cuts.len(), 3);
+    }
+
+    /// 10 mm before the end of the belt it may have left, and 11 cm before it not.
+    #[test]
+    fn a_part_that_came_to_the_end_and_never_came_back_has_left() {
+        let taken = |turns: f64| {
+            let travel = move |at: f64| 0.5 * if at < turns { at } else { 2.0 * turns - at };
+            let (script, _) = of_rig_that(&travel, &[(1.01, 1.61)], &[(3.81, 4.41)]);
+            script.cuts.iter().map(|cut| cut.taken).collect::<Vec<_>>()
+        };
+        let near = taken(4.69);
+        assert!(near.len() == 2 && near.iter().all(|at| at.is_some_and(|at| (at - 4.69).abs() < 0.03)), "{near:?}");
+        assert_eq!(taken(4.5), [None, None]);
     }
 
     #[test]
