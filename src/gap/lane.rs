@@ -250,17 +250,26 @@ impl Rider {
 }
 
 #[cfg(test)]
+impl Beyond {
+    /// A belt that runs at a speed, m/s, until an instant, s.
+    pub fn always_at(speed: f64, until: f64) -> Beyond {
+        let instants: Vec<f64> = (0..=(until / 0.02) as u32).map(|k| 0.02 * f64::from(k)).collect();
+        let way = Way { metres: instants.iter().map(|at| speed * at).collect(), instants };
+        Beyond { way, is_trusted: true, ..Beyond::default() }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 
     /// A belt 2 m long with another behind its end that always runs at `speed`, its beam 0.5 m on.
     fn lane(speed: f64, arrivals: &[f64]) -> Lane {
-        let instants: Vec<f64> = (0..2000).map(|k| 0.02 * f64::from(k)).collect();
         let beyond = Beyond {
-            way: Way { metres: instants.iter().map(|at| speed * at).collect(), instants },
             beam: Some(0.5),
             arrivals: arrivals.to_vec(),
             is_trusted: arrivals.is_empty(),
+            ..Beyond::always_at(speed, 40.0)
         };
         Lane { length: 2.0, shares: false, ends: [End::Unknown, End::Belt(beyond)] }
     }

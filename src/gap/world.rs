@@ -120,6 +120,8 @@ pub(super) struct World {
     told: Surroundings,
     /// How many of them the device was told of.
     shown_queue: u32,
+    /// How many weigh on the device, as it was told.
+    shown_here: u32,
     /// How much further from each other than the script has them the beams of this device are, m.
     apart: f64,
     beams: [bool; 2],
@@ -139,6 +141,7 @@ impl World {
             riders: Vec::new(),
             queued: 0,
             shown_queue: 0,
+            shown_here: 0,
             told: Surroundings::default(),
             apart: 0.0,
             beams: [false; 2],
@@ -164,13 +167,13 @@ impl World {
         [cut, told, taken].into_iter().flatten().min_by(f64::total_cmp)
     }
 
-    /// Moves a device and the parts on it to `until`, from `now`. Whether no part came to a beam or left it on the way: if one
+    /// Moves a device and the parts on it to `until`, from `now`. Whether no part came to a beam or left it, or the belt, on the way: if one
     /// did, device and world are spoilt, and have to be moved from their state before once more, in legs.
     pub fn advance(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) -> bool {
         while now < until {
             let stop = self.stop(now, until);
             self.carry(device.as_mut(), now, stop);
-            if !self.active.is_empty() && self.cut() != self.beams {
+            if !self.is_as_shown() {
                 return false;
             }
             now = stop;
@@ -206,11 +209,11 @@ impl World {
         }
     }
 
-    /// Moves on to `until`, or to the first crossing of a beam.
+    /// Moves on to `until`, or to the first crossing of a beam or an end.
     fn leg(&mut self, device: &mut Box<dyn Device>, now: f64, until: f64) -> Leg {
         let (start, riders) = (device.clone(), self.riders.clone());
         self.carry(device.as_mut(), now, until);
-        if self.active.is_empty() || self.cut() == self.beams {
+        if self.is_as_shown() {
             return Leg { device: start, from: now, to: until, until };
         }
         let (mut low, mut high) = (0.0, until - now);
@@ -218,7 +221,7 @@ impl World {
             let middle = 0.5 * (low + high);
             self.riders.clone_from(&riders);
             self.carry(start.clone().as_mut(), now, now + middle);
-            if self.cut() == self.beams { low = middle } else { high = middle }
+            if self.is_as_shown() { low = middle } else { high = middle }
         }
         *device = start.clone();
         self.riders = riders;
@@ -279,6 +282,17 @@ impl World {
         Cut { ahead: cut.ahead + cut.way * further, ..*cut }
     }
 
+    /// Whether beams are, and as many parts weigh on the device, as it was told last.
+    fn is_as_shown(&self) -> bool {
+        (self.active.is_empty() || self.cut() == self.beams) && self.here() == self.shown_here
+    }
+
+    /// How many parts weigh on the device: those on their way to another no more once their middles are there.
+    fn here(&self) -> u32 {
+        let lane = &self.script.lane;
+        self.riders.iter().filter(|rider| !lane.is_beyond(rider) && !lane.has_left(rider)).count() as u32
+    }
+
     /// The beams as they are now.
     fn cut(&self) -> [bool; 2] {
         let mut beams = [self.told.barrier_a, self.told.barrier_b];
@@ -321,12 +335,12 @@ impl World {
         self.shown_queue = self.queued;
         let [barrier_a, barrier_b] = beams;
         let Surroundings { sealed, parts: held, .. } = self.told;
-        let here = self.riders.iter().filter(|rider| !self.script.lane.is_beyond(rider)).count() as u32;
+        self.shown_here = self.here();
         device.sense(&Surroundings {
             barrier_a,
             barrier_b,
             sealed,
-            parts: held + here,
+            parts: held + self.shown_here,
             queued: self.queued,
             ..Surroundings::default()
         });
@@ -354,6 +368,7 @@ fn put_on(riders: &mut Vec<Rider>, cut: &Cut) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gap::lane::{Beyond, End};
 
     /// A part that a bay put at 0.15 m with its front at the beam at 0.3 m: 40 mm longer it is 20 mm past it, and reaches the next so much
     /// sooner; 40 mm shorter it is seen when its front comes there.
@@ -404,6 +419,35 @@ mod tests {
         assert_eq!(parts(&world), [0, 1]);
         world.advance(&mut device, 1.9, 2.1);
         assert_eq!(parts(&world), [1]);
+    }
+
+    /// Its front goes onto the belt behind at 1.2 s, its middle at 1.5 s, its rear at 1.8 s.
+    #[test]
+    fn a_part_weighs_until_its_middle_is_on_the_belt_behind() {
+        let lane = Lane { length: 2.0, shares: false, ends: [End::Unknown, End::Belt(Beyond::always_at(0.5, 4.0))] };
+        let cut = Cut {
+            part: 0,
+            beam: 1,
+            from: 1.0,
+            ahead: 0.0,
+            front: 1.9,
+            way: 1.0,
+            length: 0.3,
+            is_known: false,
+            taken: None,
+        };
+        let script = Script { cuts: vec![cut], lane: Arc::new(lane), ..Script::default() };
+        let mut world = World::new(&Arc::new(script)).expect("something passes");
+        let mut belt = crate::device::bench::Bench::new("kinetwin.StraightConveyor", &[("acceleration", "100")]);
+        belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 1.0, &[]);
+        let mut device = belt.device;
+        world.begin(device.as_mut());
+        world.advance_in_legs(&mut device, 0.0, 1.1);
+        assert_eq!((world.shown_here, world.riders.len()), (1, 1));
+        assert!(!world.clone().advance(&mut device.clone(), 1.1, 1.7));
+        let legs = world.advance_in_legs(&mut device, 1.1, 1.7);
+        assert!(legs.iter().any(|leg| (leg.until - 1.5).abs() < 1e-6));
+        assert_eq!((world.shown_here, world.riders.len()), (0, 1));
     }
 
     /// A beam 10 mm further on is reached 10 mm later, whichever way the belt runs; that by which a part was first seen is where it is.
