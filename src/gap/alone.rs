@@ -124,9 +124,14 @@ impl Alone {
     }
 }
 
+/// The commands of a run with their ports, when its task takes each up.
+pub(super) fn taken_up(run: &Run) -> impl Iterator<Item = (usize, f64, f64)> {
+    run.commands.iter().map(|(port, told)| (*port, run.task.taken_up(told.at), told.value))
+}
+
 /// How far the belt of a device has gone at each of `instants`, which ascend, in a run without parts, m.
 pub(super) fn travel(mut device: Box<dyn Device>, run: &Run, instants: &[f64]) -> Vec<f64> {
-    let mut commands = run.commands.iter().map(|(port, told)| (*port, run.task.taken_up(told.at), told.value));
+    let mut commands = taken_up(run);
     let mut next = commands.next();
     let (mut now, mut way) = (0.0, 0.0);
     let mut go = |device: &mut Box<dyn Device>, to: f64| {
@@ -149,6 +154,35 @@ pub(super) fn travel(mut device: Box<dyn Device>, run: &Run, instants: &[f64]) -
         ways.push(go(&mut device, *instant));
     }
     ways
+}
+
+/// How finely it is asked when a device moves, s: well below all cycles of reports.
+const ASKED_S: f64 = 1e-3;
+
+/// How many actuators of a device move without parts until a run `ends`, s, from each instant on. `commands`: port, instant and value.
+pub(super) fn moving(
+    mut device: Box<dyn Device>,
+    commands: impl Iterator<Item = (usize, f64, f64)>,
+    ends: f64,
+) -> Vec<(f64, u32)> {
+    let mut commands = commands.peekable();
+    let mut steps = Vec::new();
+    let (mut now, mut before) = (0.0, 0);
+    while now < ends {
+        while let Some((port, _, value)) = commands.next_if(|(_, at, _)| *at <= now + SAME_S) {
+            device.command(port, value);
+        }
+        let next = commands.peek().map_or(f64::INFINITY, |(_, at, _)| *at);
+        let until = (now + ASKED_S).min(next);
+        device.advance(until - now);
+        let count = device.moving();
+        if count != before {
+            steps.push((0.5 * (now + until), count));
+            before = count;
+        }
+        now = until;
+    }
+    steps
 }
 
 /// What happens next.

@@ -1,26 +1,47 @@
 //! What a device's neighbours did, as far as they reported it: who else on its supply moves, and whether a robot's grippers hold
 //! something. Effects that hang on others ask for it; no other replay is told.
 //!
-//! A speed that is reported with noise is never zero: where a level says who moves, it is what the neighbour's model predicts of it.
+//! A speed that is reported with noise is never zero, and a look each cycle misses when a motion began by up to that cycle: where a level
+//! says who moves, the neighbour's model is asked between the looks, and where a flag does, its edge is when the model has it.
 
 use std::sync::Arc;
 
+use super::alone;
+use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
 use super::subject::{Run, Subject};
 use super::track::Track;
 use super::world::{Script, Surrounding, Told};
-use crate::effect::moving_as_reported;
+use crate::effect::{EffectError, moving_as_reported};
 use crate::plant::Plant;
 
 /// A number from an instant on, s.
 type Steps = Vec<(f64, u32)>;
 
+/// The flags that say that a device moves.
+const FLAGS: [&str; 2] = ["driveRunning", "isRunning"];
+
 /// Sets what each subject's neighbours did in a run, `nominal` being what is predicted of each, in their order; of one that has no
 /// prediction yet its levels are as they were reported.
-pub(super) fn tell(plant: &Plant, subjects: &mut [Subject], nominal: &[Prediction], run: usize) {
+///
+/// # Errors
+/// Where the model's own effects do not fit.
+pub(super) fn tell(
+    plant: &Plant,
+    subjects: &mut [Subject],
+    nominal: &[Prediction],
+    run: usize,
+) -> Result<(), EffectError> {
     let predicted = |at: usize| nominal.get(at).map(|prediction| prediction.runs[run].as_slice());
-    let moving: Vec<Steps> =
-        subjects.iter().enumerate().map(|(at, subject)| moving(subject, &subject.runs[run], predicted(at))).collect();
+    let moving = subjects.iter().enumerate().map(|(at, subject)| match predicted(at) {
+        Some(_) if is_followed(subject, &subject.runs[run]) => {
+            let device = subject.device(&[], &Overrides::none())?;
+            let run = &subject.runs[run];
+            Ok(alone::moving(device, alone::taken_up(run), run.ends))
+        }
+        predicted => Ok(moving(subject, &subject.runs[run], predicted)),
+    });
+    let moving = moving.collect::<Result<Vec<Steps>, EffectError>>()?;
     let held: Vec<Steps> = (0..subjects.len()).map(|at| held(plant, subjects, at, run)).collect();
     for (at, subject) in subjects.iter_mut().enumerate() {
         let others = moving.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, steps)| steps.as_slice());
@@ -32,6 +53,13 @@ pub(super) fn tell(plant: &Plant, subjects: &mut [Subject], nominal: &[Predictio
         script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
         run.among_neighbours = Arc::new(script);
     }
+    Ok(())
+}
+
+/// Whether the model says of itself when it moves: no flag does, and it is replayed in one go from rest.
+fn is_followed(subject: &Subject, run: &Run) -> bool {
+    let has_flag = FLAGS.iter().any(|flag| subject.signals.iter().any(|info| info.property == *flag));
+    !has_flag && !run.settles && !run.resumes && run.restarts.is_none() && run.settings.is_empty()
 }
 
 fn told(at: f64, what: Surrounding) -> Told {
@@ -70,11 +98,19 @@ fn moving(subject: &Subject, run: &Run, predicted: Option<&[Predicted]>) -> Step
         let seconds = at - grid.instants[index - 1];
         let count = moving_as_reported(subject.kind, &before, &now, seconds);
         if steps.last().map_or(0, |(_, count)| *count) != count {
-            steps.push((at - 0.5 * seconds, count));
+            let edge = predicted.and_then(|predicted| flag_edge(subject, predicted, at - seconds, *at));
+            steps.push((edge.unwrap_or(at - 0.5 * seconds), count));
         }
         before.copy_from_slice(&now);
     }
     steps
+}
+
+/// When the flag that says that it moves is predicted to change within a span, if it is.
+fn flag_edge(subject: &Subject, predicted: &[Predicted], from: f64, to: f64) -> Option<f64> {
+    let place = subject.signals.iter().position(|info| FLAGS.contains(&info.property.as_str()))?;
+    let Predicted::Edges { edges, .. } = &predicted[place] else { return None };
+    edges.iter().rev().map(|edge| edge.at).find(|edge| (from..=to).contains(edge))
 }
 
 /// A track that is read on and on.
@@ -146,6 +182,24 @@ fn sum<'a>(all: impl Iterator<Item = &'a [(f64, u32)]>) -> Steps {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::bench::Bench;
+
+    /// Two axes of a robot, told the one a little after the other, in the middle of nothing that a look would show.
+    #[test]
+    fn a_device_is_asked_since_when_it_moves() {
+        let robot = Bench::new("kinetwin.CartesianRobot", &[]);
+        let port = |name: &str| robot.kind.port(name).expect(name);
+        let commands = [(port("XTarget"), 0.3137, 0.2), (port("YTarget"), 0.3351, 0.2)];
+        let steps = alone::moving(robot.device, commands.into_iter(), 3.0);
+        let counts: Vec<u32> = steps.iter().map(|(_, count)| *count).collect();
+        assert_eq!(counts, [1, 2, 1, 0]);
+        // Speeds up and down at 2 m/s² over 0.2 m, below its highest speed.
+        let takes = 2.0 * (0.2_f64 / 2.0).sqrt();
+        let begun = [0.3137, 0.3351].into_iter();
+        let expected: Vec<f64> = begun.clone().chain(begun.map(|at| at + takes)).collect();
+        let near = steps.iter().zip(expected).all(|((at, _), expected)| (at - expected).abs() <= 1e-3);
+        assert!(near, "{steps:?}");
+    }
 
     #[test]
     fn the_sum_of_steps_steps_with_each() {

@@ -120,10 +120,10 @@ impl Study {
             subject.bay = fed.and_then(|fed| Bay::of(plant, &fed));
             subject.surround(&sizes, beside)
         })?;
-        (0..recordings.len()).for_each(|run| neighbours::tell(plant, &mut subjects, &[], run));
+        (0..recordings.len()).try_for_each(|run| neighbours::tell(plant, &mut subjects, &[], run))?;
         let mut nominal = subjects.par_iter_mut().map(calibrate).collect::<Result<Vec<_>, _>>()?;
         doubt_those_with_gaps(&layout, &mut subjects, &mut nominal, &sizes)?;
-        (0..recordings.len()).for_each(|run| neighbours::tell(plant, &mut subjects, &nominal, run));
+        (0..recordings.len()).try_for_each(|run| neighbours::tell(plant, &mut subjects, &nominal, run))?;
         for run in 0..recordings.len() {
             find_edge_sigma(&mut subjects, &nominal, run);
         }
