@@ -43,12 +43,12 @@ impl Case {
     }
 }
 
-/// A model of ours with an effect on one of its devices, under its automation for some seconds.
-pub fn record(base: &str, plant: &Plant, case: Option<&Case>, seconds: u64) -> Recording {
+/// A model of ours with effects on its devices, under its automation for some seconds.
+pub fn record<'a>(base: &str, plant: &Plant, cases: impl IntoIterator<Item = &'a Case>, seconds: u64) -> Recording {
     let folder = tempfile::tempdir().expect("a folder");
     let base = Path::new(env!("CARGO_MANIFEST_DIR")).join(base).join("plant.xml");
     let mut text = std::fs::read_to_string(base).expect("the model's plant");
-    if let Some(case) = case {
+    for case in cases {
         let begin = format!("<instance name=\"{}\"", case.device);
         let (before, after) = text.split_once(&begin).expect("the instance");
         let after = after.replacen("</instance>", &format!("{}</instance>", case.xml()), 1);

@@ -41,6 +41,8 @@ pub struct Chance {
     pub misfit: f64,
     drawn: Drawn,
     signals: Vec<usize>,
+    /// A sensor that scatters, beside what else was drawn.
+    pub beside: Option<Box<Chance>>,
 }
 
 /// What is taken out of a recording.
@@ -57,6 +59,11 @@ enum Drawn {
 }
 
 impl Chance {
+    /// It and what stands beside it.
+    pub fn all(&self) -> impl Iterator<Item = &Chance> {
+        std::iter::once(self).chain(self.beside.as_deref())
+    }
+
     /// Another recording of the device as it would be judged without the effect.
     pub fn judged_without(&self, subject: &Subject) -> Option<Subject> {
         let Drawn::In(steps) = self.drawn else { return None };
@@ -123,7 +130,19 @@ pub fn find(
         if has_gap && is_asked("sampling-jitter") { late(subject, bare, before, is_stopped) } else { None }
     });
     let found = found.or_else(|| if has_gap { by_reading() } else { None });
-    found.or_else(|| if is_asked("noise") { scatter::find(place, study, has_gap) } else { None })
+    let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
+        if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
+    };
+    match found {
+        // What is read in coarse steps seems to scatter by them.
+        Some(found) if matches!(found.drawn, Drawn::In(_)) => Some(found),
+        Some(mut found) => {
+            let is_left = evidence(&found.subject, &found.bare.prediction) > THRESHOLD;
+            found.beside = scatters((&found.subject, &found.bare), is_left, &found.signals).map(Box::new);
+            Some(found)
+        }
+        None => scatters((subject, bare), has_gap, &[]),
+    }
 }
 
 /// The device without what a law drew of its signals, if that explains it. `before`: its evidence with what was drawn.
@@ -186,7 +205,16 @@ fn taken_out(
         Bounds { value: time.0, interval: time.1, is_identifiable: true },
     ];
     let candidate = candidate(law.id(), EffectPlace::ReportLink, component, &["probability", name], &bounds)?;
-    Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, drawn: Drawn::By(law), signals })
+    Some(Chance {
+        candidate,
+        bounds,
+        subject: other,
+        bare,
+        misfit: all.misfit,
+        drawn: Drawn::By(law),
+        signals,
+        beside: None,
+    })
 }
 
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
@@ -213,7 +241,16 @@ fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> b
     let bounds = vec![late.sigma()?];
     let candidate = candidate("sampling-jitter", EffectPlace::CommandLink, None, &["sigma"], &bounds)?;
     let misfit = misfit(&subject.score(&subject.predict(&[], &bare.overrides).ok()?));
-    Some(Chance { candidate, bounds, subject: other, bare, misfit, drawn: Drawn::Late, signals: Vec::new() })
+    Some(Chance {
+        candidate,
+        bounds,
+        subject: other,
+        bare,
+        misfit,
+        drawn: Drawn::Late,
+        signals: Vec::new(),
+        beside: None,
+    })
 }
 
 /// The device as its sensor reads it, if that has steps of its own. They are sure whatever else is wrong with the device.
@@ -228,7 +265,16 @@ fn in_steps(place: usize, study: &Study) -> Option<Chance> {
     let component = Some(subject.signals[signal].property.clone());
     let bounds = vec![steps.bounds()];
     let candidate = candidate("quantisation", EffectPlace::Sensor, component, &["step"], &bounds)?;
-    Some(Chance { candidate, bounds, subject: other, bare, misfit, drawn: Drawn::In(steps), signals: vec![signal] })
+    Some(Chance {
+        candidate,
+        bounds,
+        subject: other,
+        bare,
+        misfit,
+        drawn: Drawn::In(steps),
+        signals: vec![signal],
+        beside: None,
+    })
 }
 
 /// The nominal parameters of a device whose recording changed, and its floors under them.

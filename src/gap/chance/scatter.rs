@@ -1,9 +1,9 @@
 //! A sensor that scatters: its noise, in the steps that it is reported in, beside that of all other levels of the machine.
 
 use super::{Chance, Drawn, candidate};
-use crate::gap::cause::Bounds;
+use crate::gap::cause::{Bare, Bounds};
 use crate::gap::statistics::quantile;
-use crate::gap::{Predicted, Run, Study};
+use crate::gap::{Predicted, Run, Study, Subject};
 use crate::plant::EffectPlace;
 
 /// How many times more steps than those of the others a noise must be.
@@ -19,18 +19,26 @@ const STILL: f64 = 0.05;
 /// How well a standard deviation of noise that remembers is known beside what its samples say, as a share.
 const UNSURE: f64 = 0.06;
 
-/// The level of the device at `place` that scatters far more than all others do. `has_gap`: whether it is off in other ways, too; what it is
-/// off by looks like noise where it does not rest long.
-pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance> {
-    let subject = &study.subjects[place];
+/// The level of the device at `place` that scatters far more than all others do, the device being looked at as `own` has it. `has_gap`:
+/// whether it is off in other ways, too; what it is off by looks like noise where it does not rest long. Nothing is said of `drawn`: what was
+/// taken out of those levels may have left a part.
+pub(super) fn find(
+    place: usize,
+    study: &Study,
+    own: (&Subject, &Bare),
+    has_gap: bool,
+    drawn: &[usize],
+) -> Option<Chance> {
+    let (subject, bare) = own;
+    let looked_at = |at: usize| if at == place { own } else { (&study.subjects[at], &study.bare[at]) };
     let steps: Vec<(usize, usize, f64)> = study
         .subjects
         .iter()
         .enumerate()
         .flat_map(|(at, subject)| (0..subject.signals.len()).map(move |signal| (at, signal)))
-        .filter_map(|(at, signal)| Some((at, signal, in_steps(study, at, signal, has_gap && at == place)?)))
+        .filter_map(|(at, signal)| Some((at, signal, in_steps(looked_at(at), signal, has_gap && at == place)?)))
         .collect();
-    let own = steps.iter().filter(|(at, ..)| *at == place);
+    let own = steps.iter().filter(|(at, signal, _)| *at == place && !drawn.contains(signal));
     let &(_, signal, noise) = own.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let others: Vec<f64> = steps.iter().filter(|of| (of.0, of.1) != (place, signal)).map(|of| of.2).collect();
     let property = |at: usize, signal: usize| study.subjects[at].signals[signal].property.as_str();
@@ -52,8 +60,8 @@ pub(super) fn find(place: usize, study: &Study, has_gap: bool) -> Option<Chance>
     let component = Some(subject.signals[signal].property.clone());
     let candidate = candidate("noise", EffectPlace::Sensor, component, &["sigma"], &bounds)?;
     let misfit = count * (noise / usual.max(LEAST)).powi(2);
-    let (subject, bare) = (subject.clone(), study.bare[place].clone());
-    Some(Chance { candidate, bounds, subject, bare, misfit, drawn: Drawn::Noise, signals: vec![signal] })
+    let (subject, bare) = (subject.clone(), bare.clone());
+    Some(Chance { candidate, bounds, subject, bare, misfit, drawn: Drawn::Noise, signals: vec![signal], beside: None })
 }
 
 /// Whether a noise is far more than the `usual` one of the machine, and than that of the same report of other devices, all in steps.
@@ -63,8 +71,7 @@ fn is_much(noise: f64, usual: f64, of_its_like: f64) -> bool {
 
 /// The noise of a level in its steps: the least of its recordings; `None` of what is no level, or does not move, or, if `only_long`, never
 /// rests long.
-fn in_steps(study: &Study, at: usize, signal: usize, only_long: bool) -> Option<f64> {
-    let subject = &study.subjects[at];
+fn in_steps((subject, bare): (&Subject, &Bare), signal: usize, only_long: bool) -> Option<f64> {
     if subject.signals[signal].is_count {
         return None;
     }
@@ -76,7 +83,7 @@ fn in_steps(study: &Study, at: usize, signal: usize, only_long: bool) -> Option<
         let noise = floor.noise.min(at_rest(&track.values, predicted, STILL * floor.noise.max(floor.step), only_long)?);
         (track.values.len() > 100 && floor.step > 0.0).then(|| noise / floor.step)
     };
-    subject.runs.iter().zip(&study.bare[at].prediction.runs).filter_map(of).min_by(f64::total_cmp)
+    subject.runs.iter().zip(&bare.prediction.runs).filter_map(of).min_by(f64::total_cmp)
 }
 
 /// The noise of samples where the prediction moves by less than `still`, by the median of what one differs from the next: of each long rest

@@ -74,7 +74,7 @@ pub(super) fn fill(report: &mut Report, plant: &Plant, study: &Study, findings: 
         let subject = &study.subjects[finding.subject];
         let site = Site { plant, subject };
         report.fitted.extend(site.fitted(&finding.ladder.best.overrides));
-        if let Some(chance) = &finding.chance {
+        for chance in finding.chance.iter().flat_map(|chance| chance.all()) {
             report.cause.push(site.cause(&chance.candidate, &chance.bounds, &[], all));
         }
         for answer in &finding.answers {
