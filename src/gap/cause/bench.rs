@@ -188,6 +188,17 @@ impl<'a> Bench<'a> {
         self.nuisances_beside(set).map(|nuisance| nuisance.deviation).collect()
     }
 
+    /// The set of a trial without one of its effects: what the others are at, the nuisances nominal.
+    pub fn without(&self, trial: &Trial, place: usize) -> (Vec<Candidate>, Vec<f64>) {
+        let mut set = trial.set.clone();
+        let before: usize = set[..place].iter().map(|candidate| candidate.free.len()).sum();
+        let removed = set.remove(place);
+        let mut at = trial.at[..trial.parameters()].to_vec();
+        at.drain(before..before + removed.free.len());
+        at.extend(self.nominal(&set));
+        (set, at)
+    }
+
     /// Fits a set from the best of `starts`, which hold a value for each of its ranges.
     pub fn fit(&self, set: &[Candidate], starts: &[Vec<f64>], effort: Effort) -> Option<Trial> {
         let ranges = self.ranges(set);

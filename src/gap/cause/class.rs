@@ -97,9 +97,15 @@ fn answer(
         let candidate = alternative.candidate();
         let holds_it = alternative.distance < SAME_CLASS * inflation && candidate.numbers() > named.numbers();
         let is_alias = candidate.is_parameter_error() && !named.is_parameter_error() && alternative.is_same;
-        !holds_it && !is_alias
+        let is_part = alternative.is_same && is_part(candidate, named);
+        !holds_it && !is_alias && !is_part
     });
     weigh(bench, ladder, Answer { place, weight: 0.0, alternatives })
+}
+
+/// Whether one of the two is an effect of a link as a whole and the other the same of one of its signals.
+fn is_part(one: &Candidate, other: &Candidate) -> bool {
+    one.effect.id == other.effect.id && one.place == other.place && one.component.is_some() != other.component.is_some()
 }
 
 /// The best set without one of its effects, the others as they are.

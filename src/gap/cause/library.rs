@@ -139,8 +139,24 @@ impl Library<'_> {
                 Direction::Report => self.is_off(name),
             })
             .collect();
-        let all = (present.len() > 1 && place != EffectPlace::Sensor).then_some(None);
+        // What delays a whole link little shows in one report alone, where the others are looked at too seldom to be off.
+        let is_whole = match way {
+            Direction::Command => present.len() > 1,
+            Direction::Report => !present.is_empty() && self.reports_that_change() > 1,
+        };
+        let all = (is_whole && place != EffectPlace::Sensor).then_some(None);
         all.into_iter().chain(present.iter().copied().map(Some)).collect()
+    }
+
+    /// How many of its reports change in the recordings.
+    fn reports_that_change(&self) -> usize {
+        let changes = |signal: usize| {
+            let mut tracks = self.subject.runs.iter().filter_map(|run| run.tracks[signal].as_ref());
+            tracks.any(|track| {
+                !track.edges.is_empty() || track.values.iter().any(|value| Some(value) != track.values.first())
+            })
+        };
+        (0..self.subject.signals.len()).filter(|signal| changes(*signal)).count()
     }
 
     /// Whether a command port was ever written to.
@@ -250,14 +266,22 @@ mod tests {
 
     /// An axis that is told to go to and fro at 0.1 m/s, and does.
     fn slow() -> Study {
+        recorded(&["position"])
+    }
+
+    /// The same, of which these were recorded. What it says of its velocity only has to change.
+    fn recorded(reports: &[&str]) -> Study {
         let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
         let place = |step: i32| 2e-3 * f64::from((step % 200 - 100).abs());
         let lines = (0..1000).map(|step| {
             let (at, place) = (0.02 * f64::from(step), place(step));
+            let said = |report: &&str| format!("{{\"name\":\"Axis.{report}\",\"value\":{place:.4}}}");
+            let said: Vec<String> = reports.iter().map(said).collect();
             format!(
                 "{{\"t\":{at:.3},\"from\":\"automation\",\"SendValue\":[{{\"name\":\"Axis.positionTarget\",\"value\":{place:.4}}}]}}\n\
-                 {{\"t\":{:.3},\"from\":\"plant\",\"SendValue\":[{{\"name\":\"Axis.position\",\"value\":{place:.4}}}]}}\n",
-                at + 0.01
+                 {{\"t\":{:.3},\"from\":\"plant\",\"SendValue\":[{}]}}\n",
+                at + 0.01,
+                said.join(",")
             )
         });
         let text = format!("{{\"trace\":\"kinetwin/1\",\"source\":\"plant\"}}\n{}", lines.collect::<String>());
@@ -298,5 +322,22 @@ mod tests {
                 "{factor} {of_the_target:?}"
             );
         }
+    }
+
+    /// A delay of all reports shows first where they are looked at most closely.
+    #[test]
+    fn a_whole_link_may_be_late_where_one_report_alone_is_off() {
+        let off_of = |reports: &[&str]| {
+            let study = recorded(reports);
+            let subject = study.subject("Axis").expect("it moves");
+            let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+            let score = subject.score(&nominal);
+            let off = BTreeSet::from(["position"]);
+            let library = Library { subject, nominal: &nominal, score: &score, axes: Vec::new(), off };
+            library.components(EffectPlace::ReportLink)
+        };
+        assert_eq!(off_of(&["position", "velocity"]), [None, Some("position")]);
+        // Where it reports its position alone, all of its link is that.
+        assert_eq!(off_of(&["position"]), [Some("position")]);
     }
 }
