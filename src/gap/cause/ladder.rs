@@ -6,7 +6,8 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
-use super::remainder::is_explained_by_friction;
+use super::intervals::intervals;
+use super::remainder::{is_explained_by_friction, remainder};
 use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
@@ -131,6 +132,7 @@ pub fn climb(
             break;
         }
     }
+    while drop_unknown(bench, &mut ladder) {}
     if ladder.best.parameters() > 1 && !bench.subject.has_levels() {
         spread_out(bench, &mut ladder);
     }
@@ -433,16 +435,8 @@ fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) -> bool {
     let whole = ladder.best.clone();
     let (mut place, mut is_dropped) = (0, false);
     while ladder.best.set.len() > 1 && place < ladder.best.set.len() && !bench.is_stopped() {
-        let best = &ladder.best;
-        let mut set = best.set.clone();
-        let dropped = set.remove(place);
-        let before: usize = best.set[..place].iter().map(|candidate| candidate.free.len()).sum();
-        let mut at = best.at[..best.parameters()].to_vec();
-        at.drain(before..before + dropped.free.len());
-        at.extend(bench.nominal(&set));
-        let without = weighed.fit(&set, &[at], anew(weighed.ranges(&set).len()));
-        match without {
-            Some(without) if !is_worth_having(&weighed, &without, best, ladder) => {
+        match fitted_without(&weighed, &ladder.best, place) {
+            Some(without) if !is_worth_having(&weighed, &without, &ladder.best, ladder) => {
                 (ladder.best, is_dropped) = (without, true);
             }
             _ => place += 1,
@@ -452,4 +446,37 @@ fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) -> bool {
         (ladder.best, is_dropped) = (whole, false);
     }
     is_dropped
+}
+
+/// Takes out one of several effects of which the recordings hold no number, where the others leave nothing without it; whether there was one.
+/// What a law leaves of a gross gap some other effect takes up a part of, at the end of what it may be: that is no second cause.
+fn drop_unknown(bench: &Bench<'_>, ladder: &mut Ladder) -> bool {
+    if ladder.best.set.len() < 2 || bench.is_stopped() {
+        return false;
+    }
+    let weighed = bench.with(&ladder.subject);
+    let bounds = intervals(&weighed, &ladder.best, None, 0.0);
+    let mut rest = bounds.as_slice();
+    let mut found: Option<Ladder> = None;
+    for (place, candidate) in ladder.best.set.iter().enumerate() {
+        let own;
+        (own, rest) = rest.split_at(candidate.free.len());
+        if own.is_empty() || own.iter().any(|bounds| bounds.is_identifiable) {
+            continue;
+        }
+        let Some(best) = fitted_without(&weighed, &ladder.best, place) else { continue };
+        let is_better = found.as_ref().is_none_or(|found| best.cost < found.best.cost);
+        let without = Ladder { best, ..ladder.clone() };
+        let leaves_nothing = || remainder(bench, &without).is_some_and(|left| !left.is_large && !left.is_significant);
+        if is_better && leaves_nothing() {
+            found = Some(without);
+        }
+    }
+    found.map(|found| *ladder = found).is_some()
+}
+
+/// The best set without one of its effects, fitted anew.
+fn fitted_without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial> {
+    let (set, at) = bench.without(best, place);
+    bench.fit(&set, &[at], anew(bench.ranges(&set).len()))
 }

@@ -107,9 +107,10 @@ pub fn rung(
 }
 
 /// Effects of one parameter that move levels each in a way of its own; what others do goes with one of them, or with the motion itself.
-const WITNESSES: [&str; 9] = [
+const WITNESSES: [&str; 10] = [
     "acceleration-limit",
     "backlash",
+    "breakaway-friction",
     "constant-force",
     "coulomb-friction",
     "dead-band",

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, Nuisance, Remainder, Standing, Trial, anew, answers,
-    climb, intervals, misfit, plainness, remainder,
+    Alternative, Answer, Bare, Bench, Bounds, Candidate, Free, Ladder, Nuisance, Remainder, Standing, Trial, anew,
+    answers, climb, intervals, misfit, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
 use crate::gap::schedule::PART_SPACING;
@@ -140,10 +140,27 @@ fn conclude(
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
         // What is left may go with nothing that is looked for.
         () if finding.remainder.is_large || finding.remainder.is_significant => Conclusion::Partial,
+        () if may_do_nothing(&finding) => Conclusion::Partial,
         () => Conclusion::Explained,
     };
     finding.replays = bench.replays();
     Some(finding)
+}
+
+/// Whether one of several effects may be none: the interval of its main parameter holds the value at which it does nothing. Something else
+/// then takes part in what it seems to explain beside the others.
+fn may_do_nothing(finding: &Finding) -> bool {
+    let mut rest = finding.bounds.as_slice();
+    let mut each = finding.ladder.best.set.iter().map(|candidate| {
+        let own;
+        (own, rest) = rest.split_at(candidate.free.len());
+        let is_main = |free: &Free| candidate.effect.parameters.iter().find(|of| of.name == free.name);
+        let nominal = candidate.free.first().and_then(is_main);
+        own.first().zip(nominal).is_some_and(|(bounds, parameter)| {
+            !candidate.is_parameter_error() && (bounds.interval[0]..=bounds.interval[1]).contains(&parameter.nominal)
+        })
+    });
+    finding.ladder.best.set.len() > 1 && each.any(|may| may)
 }
 
 /// Where the nominal parameters alone explain much of what an effect seemed to: the search for it moved them out of a false minimum.
