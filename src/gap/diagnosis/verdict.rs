@@ -6,6 +6,7 @@ use crate::gap::cause::{Alternative, Bounds, Candidate};
 use crate::gap::report::{Cause, FittedNominal, FittedParameter, Member, Remainder, Report, Rival, Verdict};
 use crate::gap::{Overrides, Study, Subject};
 use crate::plant::Plant;
+use crate::prototype::kind::PortDescriptor;
 use crate::prototype::quantity::si_unit;
 use crate::value::Quantity;
 
@@ -215,36 +216,47 @@ impl Site<'_> {
         free.chain(fixed).collect()
     }
 
-    fn is_rotary(&self) -> bool {
-        self.subject.parameters.0.contains_key("motion") && self.subject.parameters.text("motion") == "rotary"
+    /// Whether the device turns, or this axis of it: as it is set up, else as what it is told is an angle or a speed of one.
+    fn is_rotary(&self, axis: Option<&str>) -> bool {
+        let Subject { kind, parameters, .. } = self.subject;
+        if parameters.0.contains_key("motion") {
+            return parameters.text("motion") == "rotary";
+        }
+        let of_axis = axis.and_then(|axis| kind.port(axis).or_else(|| kind.port(&format!("{axis}Target"))));
+        let own = of_axis.map(|port| &kind.ports[port]);
+        let targets = || kind.ports.iter().filter(|port| port.name.ends_with("Target"));
+        let turns = |port: &PortDescriptor| matches!(port.quantities, [Quantity::Angle | Quantity::AngularVelocity]);
+        own.map_or_else(|| targets().next().is_some() && targets().all(turns), turns)
     }
 
-    /// The SI unit of a quantity that is one thing on a linear device and another on a rotary one.
-    fn si_unit(&self, quantities: &[Quantity]) -> Option<String> {
+    /// The SI unit of a quantity that is one thing on what moves along a line and another on what turns.
+    fn si_unit(&self, quantities: &[Quantity], is_rotary: bool) -> Option<String> {
         // Of a gain that is one thing on a speed's error and another on a position's, the latter stand last.
         let is_on_position = quantities.len() > 2
             && self.subject.parameters.0.contains_key("loop")
             && self.subject.parameters.text("loop") == "proportional";
-        let at = usize::from(self.is_rotary()) + if is_on_position { 2 } else { 0 };
+        let at = usize::from(is_rotary) + if is_on_position { 2 } else { 0 };
         quantities.get(at.min(quantities.len().saturating_sub(1))).map(|quantity| si_unit(*quantity).symbol.to_owned())
     }
 
     /// The SI unit of a nominal parameter.
     fn nominal_unit(&self, name: Option<&str>) -> String {
         let parameter = name.and_then(|name| self.subject.kind.parameter(name));
-        parameter.and_then(|parameter| self.si_unit(parameter.quantities)).unwrap_or_else(|| "1".to_owned())
+        let is_rotary = self.is_rotary(None);
+        parameter.and_then(|parameter| self.si_unit(parameter.quantities, is_rotary)).unwrap_or_else(|| "1".to_owned())
     }
 
     /// The SI unit of a parameter: its own, of a parameter's value the parameter's, of a sensor's the signal's.
     fn unit(&self, candidate: &Candidate, name: &str) -> String {
-        let of = |quantities: &[Quantity]| self.si_unit(quantities);
+        let is_rotary = self.is_rotary(candidate.component.as_deref());
+        let of = |quantities: &[Quantity]| self.si_unit(quantities, is_rotary);
         let declared = candidate.effect.parameters.iter().find(|parameter| parameter.name == name);
         let Some(declared) = declared else { return "1".to_owned() };
         if candidate.is_parameter_error() {
             return self.nominal_unit(candidate.component.as_deref());
         }
         match (candidate.effect.id, declared.quantities) {
-            ("jerk-limit", _) => if self.is_rotary() { "rad/s3" } else { "m/s3" }.to_owned(),
+            ("jerk-limit", _) => if is_rotary { "rad/s3" } else { "m/s3" }.to_owned(),
             (
                 "offset" | "hysteresis" | "blind-range" | "drift" | "stuck" | "quantisation" | "noise",
                 [Quantity::One],
@@ -268,9 +280,44 @@ impl Site<'_> {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
+    use std::fs::File;
+    use std::io::BufReader;
 
     use super::*;
-    use crate::plant::EffectPlace;
+    use crate::device::KINDS;
+    use crate::effect::EFFECTS;
+    use crate::gap::Recording;
+    use crate::plant::{self, EffectPlace, embedded::Embedded};
+    use crate::trace::Reader;
+
+    /// An axis of a robot that turns and a motor are limited in radians, the robot's other axes and a servo axis along a line in metres.
+    #[test]
+    fn what_turns_is_told_in_radians() {
+        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
+        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
+        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
+        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
+        let study = Study::new(&plant, &[recording]).expect("a study");
+        let unit = |device: &str, component: Option<&str>, effect: &str| {
+            let effect = EFFECTS.iter().find(|known| known.id == effect).expect("an effect");
+            let candidate = Candidate {
+                effect,
+                place: EffectPlace::Actuator,
+                component: component.map(str::to_owned),
+                texts: BTreeMap::new(),
+                fixed: Vec::new(),
+                free: Vec::new(),
+                starts: Vec::new(),
+            };
+            Site { plant: &plant, subject: study.subject(device).expect(device) }.unit(&candidate, "limit")
+        };
+        assert_eq!(unit("Robot", Some("R"), "acceleration-limit"), "rad/s2");
+        assert_eq!(unit("Robot", Some("X"), "acceleration-limit"), "m/s2");
+        assert_eq!(unit("Robot", Some("R"), "jerk-limit"), "rad/s3");
+        assert_eq!(unit("Motor", None, "velocity-limit"), "rad/s");
+        assert_eq!(unit("Axis", None, "velocity-limit"), "m/s");
+        assert_eq!(unit("Belt", None, "velocity-limit"), "m/s");
+    }
 
     fn cause(weight: f64) -> Cause {
         Cause {
