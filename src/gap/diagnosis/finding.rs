@@ -140,7 +140,7 @@ fn conclude(
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
         // What is left may go with nothing that is looked for.
         () if finding.remainder.is_large || finding.remainder.is_significant => Conclusion::Partial,
-        () if may_do_nothing(&finding) => Conclusion::Partial,
+        () if may_do_nothing(&finding.ladder.best.set, &finding.bounds) => Conclusion::Partial,
         () => Conclusion::Explained,
     };
     finding.replays = bench.replays();
@@ -149,9 +149,9 @@ fn conclude(
 
 /// Whether one of several effects may be none: the interval of its main parameter holds the value at which it does nothing. Something else
 /// then takes part in what it seems to explain beside the others.
-fn may_do_nothing(finding: &Finding) -> bool {
-    let mut rest = finding.bounds.as_slice();
-    let mut each = finding.ladder.best.set.iter().map(|candidate| {
+fn may_do_nothing(set: &[Candidate], bounds: &[Bounds]) -> bool {
+    let mut rest = bounds;
+    let mut each = set.iter().map(|candidate| {
         let own;
         (own, rest) = rest.split_at(candidate.free.len());
         let is_main = |free: &Free| candidate.effect.parameters.iter().find(|of| of.name == free.name);
@@ -160,7 +160,7 @@ fn may_do_nothing(finding: &Finding) -> bool {
             !candidate.is_parameter_error() && (bounds.interval[0]..=bounds.interval[1]).contains(&parameter.nominal)
         })
     });
-    finding.ladder.best.set.len() > 1 && each.any(|may| may)
+    set.len() > 1 && each.any(|may| may)
 }
 
 /// Where the nominal parameters alone explain much of what an effect seemed to: the search for it moved them out of a false minimum.
@@ -234,5 +234,41 @@ fn name_the_plainest(finding: &mut Finding) {
             answer.alternatives.retain(|other| !is_alias(other));
             answer.weight += aliases;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::effect::EFFECTS;
+    use crate::gap::fit::Range;
+    use crate::plant::EffectPlace;
+
+    fn candidate(id: &str) -> Candidate {
+        let effect = EFFECTS.iter().find(|effect| effect.id == id).expect("an effect");
+        let free = |name| Free { name, range: Range { least: 0.0, greatest: 1.0, scale: 1.0 }, is_time: false };
+        Candidate {
+            effect,
+            place: EffectPlace::Mechanics,
+            component: None,
+            texts: BTreeMap::new(),
+            fixed: Vec::new(),
+            free: effect.parameters.iter().map(|parameter| free(parameter.name)).collect(),
+            starts: Vec::new(),
+        }
+    }
+
+    /// By itself an effect was worth having; of two, one whose interval holds 0 newtons, or a gain of 1, may be none.
+    #[test]
+    fn one_of_two_may_do_nothing() {
+        let within = |interval: [f64; 2]| Bounds { value: 0.5, interval, is_identifiable: true };
+        let both = [candidate("coulomb-friction"), candidate("gain-error")];
+        let bounds = |force: [f64; 2], gain: [f64; 2]| [within(force), within(gain)];
+        assert!(!may_do_nothing(&both, &bounds([1.0, 2.0], [0.7, 0.9])));
+        assert!(may_do_nothing(&both, &bounds([0.0, 2.0], [0.7, 0.9])));
+        assert!(may_do_nothing(&both, &bounds([1.0, 2.0], [0.9, 1.1])));
+        assert!(!may_do_nothing(&both[..1], &[within([0.0, 2.0])]));
     }
 }
