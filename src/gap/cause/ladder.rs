@@ -480,3 +480,43 @@ fn fitted_without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial
     let (set, at) = bench.without(best, place);
     bench.fit(&set, &[at], anew(bench.ranges(&set).len()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
+    use crate::gap::cause::library::candidates;
+
+    /// Friction explains an axis to the last step; a lag beside it, as short as one may be, is none.
+    #[test]
+    fn an_effect_at_the_end_of_what_it_may_be_goes_where_the_others_leave_nothing() {
+        let (mut subject, nominal, rubs) = rubbing_axis();
+        let lags = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "first-order-lag");
+        let lag = lags.into_iter().next().expect("a lag");
+        let stop = || false;
+        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&rubs, &[30.0]).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let shortest = lag.free[0].range.least;
+        let set = vec![rubs[0].clone(), lag];
+        let at = vec![30.0, shortest];
+        let bare = bench.trial(&[], Vec::new()).expect("a trial");
+        let mut ladder = Ladder {
+            floor: floor(&subject.score(&nominal)),
+            bare,
+            beneath: 0.0,
+            best: bench.trial(&set, at).expect("a trial"),
+            ends: None,
+            subject: subject.clone(),
+            singles: Vec::new(),
+            near: Vec::new(),
+            tried: 0,
+            too_few_blocks: None,
+            folds: Folds::Long,
+        };
+        assert!(drop_unknown(&bench, &mut ladder));
+        let left: Vec<&str> = ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
+        assert_eq!(left, ["coulomb-friction"]);
+        assert!(!drop_unknown(&bench, &mut ladder));
+    }
+}

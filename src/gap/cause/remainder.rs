@@ -406,31 +406,12 @@ fn spans(bench: &Bench<'_>, score: &Score) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use std::fs::File;
-    use std::io::BufReader;
-
     use super::*;
-    use crate::device::KINDS;
+    use crate::gap::Subject;
+    use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
     use crate::gap::cause::ladder::anew;
     use crate::gap::cause::library::candidates;
     use crate::gap::cause::nuisance::nuisances;
-    use crate::gap::{Overrides, Recording, Study, Subject};
-    use crate::plant::{self, embedded::Embedded};
-    use crate::trace::Reader;
-
-    /// The recorded axis, what it would do without friction, and friction as a candidate.
-    fn rubbing_axis() -> (Subject, Prediction, Vec<Candidate>) {
-        let path = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
-        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
-        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
-        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
-        let study = Study::new(&plant, &[recording]).expect("a study");
-        let subject = study.subject("Axis").expect("it moves").clone();
-        let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
-        let found = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "coulomb-friction");
-        let rubs = vec![found.into_iter().next().expect("friction")];
-        (subject, nominal, rubs)
-    }
 
     /// What friction explains to the last step leaves nothing for a second effect; without it all is left.
     #[test]
@@ -440,11 +421,7 @@ mod tests {
         let at = |bench: &Bench<'_>| [vec![30.0], bench.nominal(&rubs)].concat();
         let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
         let recorded = bench.predict(&rubs, &at(&bench)).expect("a prediction");
-        for (track, predicted) in subject.runs[0].tracks.iter_mut().zip(&recorded.runs[0]) {
-            if let (Some(track), Predicted::Level(values)) = (track, predicted) {
-                track.values.clone_from(values);
-            }
-        }
+        report_as(&mut subject, &recorded);
         let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
         let nothing = bench.nominal(&[]);
         let trial = |set: &[Candidate], at: Vec<f64>| bench.trial(set, at).expect("a trial");
