@@ -147,10 +147,14 @@ impl Cylinder {
         self.stages.is_nominal() && is_held
     }
 
-    /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage nobody knows.
+    /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage nobody knows but at rest.
     pub fn unchanged_for(&self) -> f64 {
+        let is_at_rest = match self.valve {
+            Drive::Hold => self.speed == 0.0,
+            valve => self.stroke.steady(valve) <= 0.0,
+        };
         let (way, speed) = match self.valve {
-            _ if !self.stages.is_nominal() => return 0.0,
+            _ if !self.stages.is_nominal() => return if is_at_rest { self.stages.unchanged_for() } else { 0.0 },
             Drive::Hold => return f64::INFINITY,
             Drive::Extend => (1.0, self.settings.extend_speed),
             Drive::Retract => (-1.0, self.settings.retract_speed),

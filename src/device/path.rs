@@ -414,6 +414,22 @@ impl Stages {
         is_news
     }
 
+    /// For how long at least they make of a device at rest what they make of it now, if nothing is told, s: those that bear any stretch know when
+    /// they change by themselves; of others nobody knows.
+    pub fn unchanged_for(&self) -> f64 {
+        match (self.has_any, self.longest.is_infinite()) {
+            (false, _) => f64::INFINITY,
+            (true, false) => 0.0,
+            (true, true) => {
+                self.next_change().map_or(f64::INFINITY, |at| (at - self.now.value() - 2.0 * SAME_INSTANT_S).max(0.0))
+            }
+        }
+    }
+
+    fn next_change(&self) -> Option<f64> {
+        self.paths().iter().filter_map(|path| path.next_change()).min_by(f64::total_cmp)
+    }
+
     /// Lets time pass where nothing moves in stages.
     pub fn pass_time(&mut self, seconds: f64) {
         self.now.add(seconds);
@@ -431,8 +447,7 @@ impl Stages {
         if *rest <= 0.0 {
             return None;
         }
-        let change = self.paths().iter().filter_map(|path| path.next_change()).min_by(f64::total_cmp);
-        let until = change.map_or(f64::INFINITY, |at| at - self.now.value());
+        let until = self.next_change().map_or(f64::INFINITY, |at| at - self.now.value());
         // A change that is due, or so near that time would not move, does not hold time up.
         let ahead = |until: f64| if until > SAME_INSTANT_S { until } else { f64::INFINITY };
         let span = rest.min(self.longest).min(ahead(until)).min(ahead(steady));

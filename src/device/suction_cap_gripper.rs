@@ -121,7 +121,7 @@ impl Device for SuctionCapGripper {
     }
 
     fn unchanged_for(&self) -> f64 {
-        if self.stages.is_nominal() { self.vacuum.unchanged_for() } else { 0.0 }
+        self.vacuum.unchanged_for().min(self.stages.unchanged_for())
     }
 
     fn boxed(&self) -> Box<dyn Device> {

@@ -5,20 +5,29 @@
 //! Signals may also be swapped: then two of a device's commands, or of its reports, change places before all stages.
 
 use crate::device::law::SAME_INSTANT_S;
-use crate::device::path::{Moment, Motion, Path, Stages};
+use crate::device::path::{Moment, Motion, Path, STEPS_STRETCH_S, Stages};
 use crate::device::{Belt, Device, Plate, Role, Surroundings, Tool};
+
+/// Within this a step comes whose instant a device knows, s.
+const SOON_S: f64 = 1e-7;
 
 /// A device with stages around it.
 #[derive(Clone)]
 pub struct Affected {
     inner: Box<dyn Device>,
     signals: Vec<Signal>,
-    /// The longest stretch that all stages bear, s.
+    /// The longest stretch that all stages bear but those of reports that step, s.
     longest: f64,
+    /// The longest that those bear, s: as long as none of their reports steps, they bear any.
+    longest_of_steps: f64,
+    /// Whether it is known of all stages of commands and of reports that step when their exits next change by themselves.
+    is_foreseen: bool,
     /// Whether any report passes a stage.
     reports_pass: bool,
     /// The ports of the device whose steps pass a stage: it has to see each at its instant.
     watched: Vec<usize>,
+    /// Whether the device has moved to where it knew that no step comes before.
+    is_near: bool,
     now: f64,
     reports: Vec<f64>,
     /// What the parts see, over all stretches of one `advance`.
@@ -39,6 +48,14 @@ pub struct Signal {
     pub steps: bool,
 }
 
+impl Signal {
+    /// Whether its stages are told of each change at its instant, a command's by who gives it and a step's of a report by the device, and know when
+    /// their exit changes by itself: nothing happens to them in between.
+    fn is_told(&self) -> bool {
+        (self.is_command || self.steps) && self.path.stretch() >= STEPS_STRETCH_S
+    }
+}
+
 /// The role of a device that moves in several stretches: displacements are added up.
 #[derive(Clone, Debug)]
 enum Moved {
@@ -50,12 +67,28 @@ enum Moved {
 impl Affected {
     /// A device with its `signals`, one for each port.
     pub fn new(inner: Box<dyn Device>, signals: Vec<Signal>) -> Affected {
-        let longest = signals.iter().map(|signal| signal.path.stretch()).fold(f64::INFINITY, f64::min);
+        let (told, others): (Vec<&Signal>, Vec<&Signal>) = signals.iter().partition(|signal| signal.is_told());
+        let longest = |of: &[&Signal]| of.iter().map(|signal| signal.path.stretch()).fold(f64::INFINITY, f64::min);
+        let steps: Vec<&Signal> = told.into_iter().filter(|signal| !signal.is_command).collect();
+        let (longest_of_steps, longest) = (longest(&steps), longest(&others));
+        let is_foreseen = !others.iter().any(|signal| signal.is_command || signal.steps);
         let reports_pass = signals.iter().any(|signal| !signal.is_command && !signal.path.is_nominal());
         let reports = vec![0.0; signals.len()];
         let watched = signals.iter().filter(|signal| signal.steps && !signal.path.is_nominal());
         let watched = watched.map(|signal| signal.port).collect();
-        let mut affected = Affected { inner, signals, longest, reports_pass, watched, now: 0.0, reports, moved: None };
+        let mut affected = Affected {
+            inner,
+            signals,
+            longest,
+            longest_of_steps,
+            is_foreseen,
+            reports_pass,
+            watched,
+            is_near: false,
+            now: 0.0,
+            reports,
+            moved: None,
+        };
         affected.first_commands();
         affected
     }
@@ -115,30 +148,52 @@ impl Affected {
         }
     }
 
+    /// How long it is until the exit of a stage changes by itself, s.
+    fn until_a_change(&self) -> f64 {
+        let change = self.signals.iter().filter_map(|signal| signal.path.next_change()).min_by(f64::total_cmp);
+        change.map_or(f64::INFINITY, |at| at - self.now)
+    }
+
     /// The longest stretch from now on, of at most `rest`: a stage's next change ends it.
     fn stretch(&self, rest: f64) -> f64 {
-        let change = self.signals.iter().filter_map(|signal| signal.path.next_change()).min_by(f64::total_cmp);
-        let until = change.map_or(f64::INFINITY, |at| at - self.now);
+        let until = self.until_a_change();
         // A change that is due, or so near that time would not move, does not hold time up.
         let until = if until > SAME_INSTANT_S { until } else { f64::INFINITY };
-        let span = rest.min(self.longest).min(until);
+        let mut span = rest.min(self.longest).min(until);
+        if span > self.longest_of_steps {
+            span = span.min(self.longest_of_steps.max(self.inner.unchanged_for()));
+        }
         // What rounding leaves of the whole is no stretch of its own.
         if rest - span < SAME_INSTANT_S { rest } else { span }
     }
 
     /// Moves by `span`, or to the first step of a report that is watched; returns how long that took.
     fn move_by(&mut self, span: f64) -> f64 {
+        let is_near = std::mem::take(&mut self.is_near);
         // A copy of a device takes as long as many steps of it.
-        if self.watched.is_empty() || self.inner.unchanged_for() > span {
-            self.inner.advance(span);
-            return span;
+        let stays = if self.watched.is_empty() { f64::INFINITY } else { self.inner.unchanged_for() };
+        if stays > SOON_S {
+            self.is_near = stays <= span;
+            self.inner.advance(span.min(stays));
+            return span.min(stays);
         }
         let (start, before) = (self.inner.clone(), self.steps());
-        self.inner.advance(span);
-        if self.steps() == before {
-            return span;
+        let mut still = 0.0;
+        // Where a device knew until when nothing changes, that is mostly when something does.
+        if is_near && span > SOON_S {
+            self.inner.advance(SOON_S);
+            if self.steps() == before {
+                still = SOON_S;
+                self.inner = start.clone();
+            }
         }
-        let (mut still, mut stepped) = (0.0, span);
+        let mut stepped = if is_near && span > SOON_S && still == 0.0 { SOON_S } else { span };
+        if stepped == span {
+            self.inner.advance(span);
+            if self.steps() == before {
+                return span;
+            }
+        }
         while stepped - still > SAME_INSTANT_S {
             let middle = 0.5 * (still + stepped);
             self.inner = start.clone();
@@ -233,6 +288,13 @@ impl Device for Affected {
 
     fn report(&mut self, reports: &mut [f64]) {
         self.pass_reports(0.0, reports);
+    }
+
+    fn unchanged_for(&self) -> f64 {
+        match self.is_foreseen {
+            true => self.inner.unchanged_for().min(self.until_a_change() - 2.0 * SAME_INSTANT_S).max(0.0),
+            false => 0.0,
+        }
     }
 
     fn count_finely(&mut self) {

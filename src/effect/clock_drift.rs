@@ -6,7 +6,7 @@
 
 use super::line::{History, Mail};
 use super::table::{BASE, ONE, parameter};
-use crate::device::path::{Moment, Stage};
+use crate::device::path::{Moment, STEPS_STRETCH_S, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass};
 use crate::plant::EffectPlace;
 
@@ -23,8 +23,8 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     build: Build::Stage(|values, site| {
         Box::new(ClockDrift {
             rate: values[0],
-            is_command: site.is_command(),
-            history: History::new(site.is_smooth(), site.is_whole()),
+            is_smooth: site.is_smooth(),
+            history: History::new(true, site.is_whole()),
             mail: Mail::default(),
         })
     }),
@@ -34,7 +34,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
 #[derive(Clone, Debug)]
 struct ClockDrift {
     rate: f64,
-    is_command: bool,
+    is_smooth: bool,
     history: History,
     mail: Mail,
 }
@@ -42,6 +42,11 @@ struct ClockDrift {
 impl Stage for ClockDrift {
     fn boxed(&self) -> Box<dyn Stage> {
         Box::new(self.clone())
+    }
+
+    fn stretch(&self) -> f64 {
+        // A step is told at its instant, and passed on at one.
+        if self.is_smooth { STRETCH_S } else { STEPS_STRETCH_S }
     }
 
     fn next_change(&self) -> Option<f64> {
@@ -52,7 +57,7 @@ impl Stage for ClockDrift {
         if self.rate == 0.0 {
             return value;
         }
-        if self.is_command {
+        if !self.is_smooth {
             if self.mail.is_new(value) {
                 self.mail.send(value, now * (1.0 + self.rate));
             }
@@ -78,6 +83,15 @@ mod tests {
         let drift = spec("report-link", "clock-drift", Some("velocityActual"), &[("rate", 0.01)]);
         let mut belt = with("StraightConveyor", &[("acceleration", "0.01")], &[drift]);
         belt.check(&[("velocityTarget", 1e3), ("motorDirection", 1.0)], 50.5, &[("velocityActual", 0.5)]);
+    }
+
+    #[test]
+    fn a_step_of_a_report_is_late_by_its_share_of_the_time() {
+        let drift = spec("report-link", "clock-drift", Some("driveEnabled"), &[("rate", 0.01)]);
+        let mut belt = with("StraightConveyor", &[], &[drift]);
+        belt.check(&[], 10.0, &[]);
+        belt.check(&[("motorDirection", 1.0)], 0.0999, &[("driveEnabled", 0.0)]);
+        belt.check(&[], 0.0002, &[("driveEnabled", 1.0)]);
     }
 
     #[test]

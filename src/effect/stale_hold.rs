@@ -19,7 +19,9 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     fits: &[Fit::Signals(SignalClass::Any)],
     parameters: &[time("time", 0.1, "from one refresh to the next")],
     excited_by: "changes of the signal",
-    build: Build::Stage(|values, _| Box::new(StaleHold { time: values[0], window: None, held: 0.0 })),
+    build: Build::Stage(|values, site| {
+        Box::new(StaleHold { time: values[0], is_smooth: site.is_smooth(), window: None, entry: 0.0, held: 0.0 })
+    }),
     ..BASE
 };
 
@@ -30,8 +32,12 @@ const SHORTEST_S: f64 = 1e-5;
 #[derive(Clone, Debug)]
 struct StaleHold {
     time: f64,
+    /// Whether the signal moves all the time, and not in steps of which each is told at its instant.
+    is_smooth: bool,
     /// The window that the signal was refreshed in.
     window: Option<u64>,
+    /// What stands at the entry.
+    entry: f64,
     held: f64,
 }
 
@@ -45,7 +51,8 @@ impl Stage for StaleHold {
     }
 
     fn next_change(&self) -> Option<f64> {
-        self.window.filter(|_| self.time >= SHORTEST_S).map(|window| (window + 1) as f64 * self.time)
+        let waits = self.time >= SHORTEST_S && (self.is_smooth || self.entry != self.held);
+        self.window.filter(|_| waits).map(|window| (window + 1) as f64 * self.time)
     }
 
     fn signal(&mut self, value: f64, moment: Moment) -> f64 {
@@ -54,12 +61,18 @@ impl Stage for StaleHold {
         }
         let window = ((moment.now + SAME_INSTANT_S) / self.time) as u64;
         if self.window != Some(window) {
-            (self.window, self.held) = (Some(window), value);
+            // A step that nobody waited for came after the refresh of its window.
+            let is_at_refresh = moment.now <= window as f64 * self.time + SAME_INSTANT_S;
+            let is_taken = self.is_smooth || self.window.is_none() || is_at_refresh || self.time < SHORTEST_S;
+            self.held = if is_taken { value } else { self.entry };
+            self.window = Some(window);
         }
+        self.entry = value;
         self.held
     }
 
     fn state(&self, visit: &mut dyn FnMut(f64)) {
+        visit(self.entry);
         visit(self.held);
     }
 }
@@ -75,6 +88,20 @@ mod tests {
         belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 0.15, &[("velocityActual", 0.1)]);
         belt.check(&[], 0.0499, &[("velocityActual", 0.1)]);
         belt.check(&[], 0.0002, &[("velocityActual", 0.2)]);
+    }
+
+    /// A step after five refreshes that had nothing to show waits for the sixth, and one at a refresh for none.
+    #[test]
+    fn a_step_waits_for_the_next_refresh() {
+        let hold = || spec("report-link", "stale-hold", Some("driveEnabled"), &[("time", 0.125)]);
+        let start = [("velocityTarget", 0.5), ("motorDirection", 1.0)];
+        let mut belt = with("StraightConveyor", &[], &[hold()]);
+        belt.check(&[], 0.7, &[("driveEnabled", 0.0)]);
+        belt.check(&start, 0.0499, &[("driveEnabled", 0.0)]);
+        belt.check(&[], 0.0002, &[("driveEnabled", 1.0)]);
+        let mut belt = with("StraightConveyor", &[], &[hold()]);
+        belt.check(&[], 0.75, &[("driveEnabled", 0.0)]);
+        belt.check(&start, 0.0, &[("driveEnabled", 1.0)]);
     }
 
     /// One that would be refreshed a thousand million times in this second.

@@ -8,7 +8,8 @@ use super::*;
 use crate::device::bench::Bench;
 use crate::device::{Device, Role, Surroundings};
 use crate::plant::Parameters;
-use crate::prototype::kind::KindDescriptor;
+use crate::prototype::kind::{KindDescriptor, PortType};
+use crate::signal_map::{Direction, Kind};
 
 /// A device in a day's work that shows every effect there is on it.
 struct Site {
@@ -216,6 +217,17 @@ impl Site {
     /// What is seen of a device on its day, every [`LOOK_S`] and a little after everything that happens; each span from one
     /// instant to the next in `parts` of these lengths.
     fn live(&self, device: &mut dyn Device, kind: &KindDescriptor, parts: &[f64]) -> Vec<Vec<f64>> {
+        self.live_and(device, kind, parts, &mut |_, _| {})
+    }
+
+    /// The same, and `visit` is given the device at every look, and when that is.
+    fn live_and(
+        &self,
+        device: &mut dyn Device,
+        kind: &KindDescriptor,
+        parts: &[f64],
+        visit: &mut dyn FnMut(&mut dyn Device, f64),
+    ) -> Vec<Vec<f64>> {
         let mut instants: Vec<(f64, Option<(&Act, u32)>)> = Vec::new();
         for (at, act) in self.day {
             let count = if let Stairs(_, _, _, count) = act { *count } else { 1 };
@@ -232,7 +244,10 @@ impl Site {
             now = at;
             match act {
                 Some((act, step)) => act.on(device, kind, step),
-                None => seen.push(eyes.see(device, kind)),
+                None => {
+                    seen.push(eyes.see(device, kind));
+                    visit(device, at);
+                }
             }
         }
         seen
@@ -473,6 +488,43 @@ fn a_span_may_be_cut_anywhere() {
         }
     });
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// At every look of its day, as far as it says by then.
+#[test]
+fn reports_that_step_stay_as_long_as_a_device_with_an_effect_says() {
+    let (mut wrong, mut said) = (Vec::new(), 0);
+    everywhere(typical, |_, site, spec| {
+        let (mut device, kind) = site.device(from_ref(&spec), 1).expect("it fits");
+        let ports = kind.ports.iter().enumerate().filter(|(_, port)| port.direction == Direction::Report);
+        let steps: Vec<usize> = ports
+            .filter(|(_, port)| port.kind == Kind::Edge || port.ty == PortType::Boolean)
+            .map(|(at, _)| at)
+            .collect();
+        let see = |device: &mut dyn Device| {
+            let mut seen = vec![0.0; kind.ports.len()];
+            device.report(&mut seen);
+            steps.iter().map(|port| seen[*port]).collect::<Vec<f64>>()
+        };
+        let mut visit = |device: &mut dyn Device, at: f64| {
+            let least = device.unchanged_for().min(3.0);
+            if least <= 0.0 {
+                return;
+            }
+            said += 1;
+            let before = see(device.boxed().as_mut());
+            for part in [0.5, 1.0 - 1e-9] {
+                let mut there = device.boxed();
+                there.advance(part * least);
+                if see(there.as_mut()) != before {
+                    wrong.push(format!("{}: {} s after {at} s, of {least} s", title(site, &spec), part * least));
+                }
+            }
+        };
+        site.live_and(device.as_mut(), kind, WHOLE, &mut visit);
+    });
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(said > 1000, "{said}");
 }
 
 #[test]

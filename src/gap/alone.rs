@@ -70,6 +70,12 @@ impl Alone {
         is_smooth
     }
 
+    /// Until when at least no state changes if nothing is told, s.
+    fn quiet_until(&self) -> f64 {
+        let world = self.world.as_ref().map_or(f64::INFINITY, |world| world.quiet_until(self.now));
+        if world > self.now { world.min(self.now + self.device.unchanged_for()) } else { self.now }
+    }
+
     /// Moves on to `at`, from where it is smooth to where it is smooth.
     fn advance_in_legs(&mut self, at: f64) -> Vec<Leg> {
         let legs = match &mut self.world {
@@ -211,7 +217,8 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
     loop {
         let due = run.commands.get(command).map(|(_, stamped)| run.task.taken_up(stamped.at));
         let restart = restarts.and_then(|restarts| restarts.each.get(taken_up_again)).map(|restart| restart.at);
-        let looked = looks.next(due.into_iter().chain(restart).min_by(f64::total_cmp));
+        let quiet = if looks.are_of_states() { alone.quiet_until() } else { alone.now };
+        let looked = looks.next(due.into_iter().chain(restart).min_by(f64::total_cmp), quiet);
         let is_next = |restart: f64, looked: f64| restart <= looked && due.is_none_or(|due| restart <= due);
         let (at, next) = match (due, looked) {
             (_, None) => break,

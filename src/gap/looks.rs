@@ -33,8 +33,10 @@ struct Stream<'a> {
     tick: f64,
     /// The next instant of the grid.
     next: usize,
-    /// How many instants one look may ever stand for.
+    /// How many instants one look may ever stand for while something may change.
     longest: usize,
+    /// Whether it is of levels, which are looked at at every instant.
+    is_of_levels: bool,
     /// Their places among the watches, and the first instant of each.
     signals: Vec<(usize, usize)>,
 }
@@ -44,6 +46,18 @@ impl Stream<'_> {
         let at = *self.track.grid.instants.get(index)?;
         let at = if self.tick > 0.0 { (at / self.tick).round() * self.tick } else { at };
         Some((at + self.lead).max(0.0))
+    }
+
+    /// The last instant before `until`, if it is the next one or behind it.
+    fn last_before(&self, until: f64) -> Option<f64> {
+        let instants = &self.track.grid.instants;
+        let after = |index: &usize| self.instant(*index).is_none_or(|at| at >= until);
+        let (mut low, mut high) = (self.next, instants.len());
+        while low < high {
+            let middle = low.midpoint(high);
+            if after(&middle) { high = middle } else { low = middle + 1 }
+        }
+        (low > self.next).then(|| self.instant(low - 1)).flatten()
     }
 
     /// The last of the next `stride` instants that does not lie behind `bound`; the next one at least.
@@ -64,16 +78,18 @@ impl<'a> Looks<'a> {
             let same =
                 |stream: &&mut Stream<'a>| Arc::ptr_eq(&stream.track.grid, &track.grid) && stream.lead == watch.lead;
             let of_edges = (LEAP_S / track.grid.cycle.max(1e-6)).round().max(1.0) as usize;
-            let longest = if watch.is_edge() { of_edges } else { 1 };
+            let is_of_levels = !watch.is_edge();
+            let longest = if is_of_levels { 1 } else { of_edges };
             match streams.iter_mut().find(same) {
                 Some(stream) => {
                     stream.signals.push((signal, track.first));
                     stream.next = stream.next.min(track.first);
                     stream.longest = stream.longest.min(longest);
+                    stream.is_of_levels |= is_of_levels;
                 }
                 None => {
                     let (lead, tick, signals) = (watch.lead, run.sample_tick, vec![(signal, track.first)]);
-                    streams.push(Stream { track, lead, tick, next: track.first, longest, signals });
+                    streams.push(Stream { track, lead, tick, next: track.first, longest, is_of_levels, signals });
                 }
             }
         }
@@ -82,15 +98,29 @@ impl<'a> Looks<'a> {
         Looks { streams, levels, slowly: 0.0, stride: 1, leaps: false }
     }
 
-    /// When the device is looked at next, `due` being the next command's instant; `None` where there is nothing left to see.
-    pub fn next(&mut self, due: Option<f64>) -> Option<f64> {
+    /// Whether states alone are looked at: then nothing is there to be seen while none changes.
+    pub fn are_of_states(&self) -> bool {
+        !self.streams.iter().any(|stream| stream.is_of_levels)
+    }
+
+    /// When the device is looked at next, `due` being the next command's instant and no state changing before `quiet`; `None` where there is
+    /// nothing left to see.
+    pub fn next(&mut self, due: Option<f64>, quiet: f64) -> Option<f64> {
         let own = |stream: &Stream<'_>| stream.instant(stream.next);
         let next = self.streams.iter().filter_map(own).min_by(f64::total_cmp)?;
         self.leaps = false;
+        if next >= self.slowly && quiet > next + SAME_S && self.are_of_states() {
+            let until = due.map_or(quiet, |due| quiet.min(due - SAME_S));
+            let last = self.streams.iter().filter_map(|stream| stream.last_before(until)).max_by(f64::total_cmp);
+            if let Some(last) = last.filter(|last| *last > next + SAME_S) {
+                self.leaps = true;
+                return Some(last);
+            }
+        }
         if self.stride == 1 || next < self.slowly {
             return Some(next);
         }
-        let single = self.streams.iter().filter(|stream| stream.longest == 1).filter_map(own).map(|at| at + SAME_S);
+        let single = self.streams.iter().filter(|stream| stream.is_of_levels).filter_map(own).map(|at| at + SAME_S);
         let bound = single.chain(due.map(|due| due - SAME_S)).fold(f64::INFINITY, f64::min);
         let last = |stream: &Stream<'_>| stream.instant(stream.last(self.stride, bound));
         let leapt = self.streams.iter().filter_map(last).min_by(f64::total_cmp)?;
@@ -120,7 +150,7 @@ impl<'a> Looks<'a> {
             let first = stream.next;
             while stream.instant(stream.next).is_some_and(|own| own <= at + SAME_S) {
                 stream.next += 1;
-                if stream.longest == 1 {
+                if stream.is_of_levels {
                     break;
                 }
             }
@@ -141,7 +171,7 @@ mod tests {
 
     use crate::device::KINDS;
     use crate::gap::{Overrides, Predicted, Recording, Study, Subject};
-    use crate::plant::{self, embedded::Embedded};
+    use crate::plant::{self, EffectPlace, EffectSpec, ParameterValue, embedded::Embedded};
     use crate::signal_map::Kind;
     use crate::trace::Reader;
 
@@ -193,6 +223,62 @@ mod tests {
             found += fast.len();
         }
         assert!(found > 15, "{found}");
+    }
+
+    /// A study of the rig's gripper, whose one report is a state; it grips, blows and waits. `chatters`: it is told what it was told already every
+    /// 10 ms, so that no while is quiet.
+    fn gripper(chatters: bool) -> Study {
+        let plant = plant::load(&Embedded, "models/rig", KINDS).expect("the rig");
+        let acts =
+            [(0.31, true, false), (1.9, false, false), (2.0, true, false), (6.4, true, true), (6.5, false, false)];
+        let mut lines: Vec<(f64, String)> = Vec::new();
+        let (mut told, mut next) = ((false, false), 0);
+        for step in 0..900 {
+            let at = 0.01 * f64::from(step) + 0.00005;
+            let is_news = acts.get(next).is_some_and(|act| act.0 <= at);
+            if is_news {
+                told = (acts[next].1, acts[next].2);
+                next += 1;
+            }
+            if is_news || chatters {
+                let (suction, blow) = told;
+                lines.push((at, format!(r#""automation","SendValue":[{{"name":"Gripper.suctionOn","value":{suction}}},{{"name":"Gripper.blowOn","value":{blow}}}]"#)));
+            }
+        }
+        for (at, vacuum) in [(0.0, false), (0.47, true), (1.99, false), (2.16, true), (6.41, false), (8.9, true)] {
+            lines.push((at, format!(r#""plant","SendValue":[{{"name":"Gripper.vacuumOn","value":{vacuum}}}]"#)));
+        }
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let each = lines.iter().map(|(at, line)| format!("{{\"t\":{at:.5},\"from\":{line}}}\n"));
+        let text = format!("{HEADER}\n{}", each.collect::<String>());
+        let reader = Reader::new("gripper", Cursor::new(text.into_bytes())).expect("a trace");
+        let recording = Recording::read(&plant, "gripper", reader, &[]).expect("a recording");
+        Study::new(&plant, &[recording]).expect("a study")
+    }
+
+    #[test]
+    fn a_look_over_a_quiet_while_misses_nothing() {
+        let (quiet, chatters) = (gripper(false), gripper(true));
+        for time in [0.0, 0.02, 0.3, 2.0] {
+            let late = EffectSpec {
+                kind: "on-delay".to_owned(),
+                place: EffectPlace::Sensor,
+                component: Some("vacuumOn".to_owned()),
+                parameters: [("time".to_owned(), ParameterValue::Number(time))].into_iter().collect(),
+            };
+            let edges = |study: &Study| {
+                let gripper = study.subject("Gripper").expect("the gripper");
+                let runs = gripper.predict(std::slice::from_ref(&late), &Overrides::none()).expect("a gripper").runs;
+                let Predicted::Edges { edges, .. } = &runs[0][0] else { panic!("{runs:?}") };
+                edges.iter().map(|edge| (edge.index, edge.to, edge.at)).collect::<Vec<_>>()
+            };
+            let (found, expected) = (edges(&quiet), edges(&chatters));
+            assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+            assert!(found.len() >= 2, "{found:?}");
+            let is_same =
+                |(a, b): (&(usize, f64, f64), &(usize, f64, f64))| (a.0, a.1) == (b.0, b.1) && (a.2 - b.2).abs() < 3e-7;
+            assert!(found.iter().zip(&expected).all(is_same), "{found:?} {expected:?}");
+        }
     }
 
     #[test]

@@ -167,6 +167,12 @@ impl World {
         [cut, told, taken].into_iter().flatten().min_by(f64::total_cmp)
     }
 
+    /// Until when at least the device is shown nothing new: with a part on it, that is not known.
+    pub fn quiet_until(&self, now: f64) -> f64 {
+        let is_empty = self.active.is_empty() && self.riders.is_empty();
+        if is_empty { self.next().unwrap_or(f64::INFINITY) } else { now }
+    }
+
     /// Moves a device and the parts on it to `until`, from `now`. Whether no part came to a beam or left it, or the belt, on the way: if one
     /// did, device and world are spoilt, and have to be moved from their state before once more, in legs.
     pub fn advance(&mut self, device: &mut Box<dyn Device>, mut now: f64, until: f64) -> bool {
