@@ -85,10 +85,8 @@ impl Steps {
         let tried = ((1.0 / least - 1.0 / most) / finely).ceil() as usize + 1;
         let read = once(moving, 0.5 * COARSER * own);
         let predicted: Vec<f64> = moving.iter().map(|(_, p)| *p).collect();
-        let gathered = |values: &[f64], rate: f64| {
-            values.iter().map(|value| (TAU * rate * value).cos()).sum::<f64>() / values.len() as f64
-        };
-        let rates = (0..tried).map(|k| 1.0 / most + k as f64 * finely).map(|rate| (gathered(&read, rate), rate));
+        let rates = (0..tried).map(|k| 1.0 / most + k as f64 * finely);
+        let rates = gathered_at_each(&read, 1.0 / most, finely, tried).into_iter().zip(rates);
         let (seen, rate) = rates.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let longer = (2..=MULTIPLES).rev().map(|times| rate / f64::from(times));
         let longer = longer.map(|rate| (gathered(&read, rate), rate)).find(|longer| longer.0 > AS_WELL * seen);
@@ -234,6 +232,25 @@ fn once(moving: &[(f64, f64)], apart: f64) -> Vec<f64> {
     stays.into_iter().map(|(sum, count)| sum / count).collect()
 }
 
+/// How nearly values lie about the multiples of 1/`rate`: the mean of their cosines.
+fn gathered(values: &[f64], rate: f64) -> f64 {
+    values.iter().map(|value| (TAU * rate * value).cos()).sum::<f64>() / values.len() as f64
+}
+
+/// The same at `count` rates, from `first` on every `apart`: each value's phase turns by as much from one rate to the next.
+fn gathered_at_each(values: &[f64], first: f64, apart: f64, count: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; count];
+    for value in values {
+        let (mut sin, mut cos) = (TAU * first * value).sin_cos();
+        let (turn_sin, turn_cos) = (TAU * apart * value).sin_cos();
+        for sum in &mut sums {
+            *sum += cos;
+            (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
+        }
+    }
+    sums.iter().map(|sum| sum / values.len() as f64).collect()
+}
+
 /// The lattice that values are rounded to: the greatest length of which all differences of neighbours are multiples; `None` where that is what
 /// single precision makes of any values.
 fn lattice(mut values: Vec<f64>) -> Option<f64> {
@@ -326,6 +343,18 @@ mod tests {
     #[test]
     fn a_report_without_a_lattice_of_its_own_shows_no_steps() {
         assert_eq!(found(&sweep(0.8, |x, _| f64::from(rounded(x, TAU / 4096.0) as f32)), 0.0), None);
+    }
+
+    #[test]
+    fn what_gathers_at_many_rates_is_what_gathers_at_each() {
+        let values: Vec<f64> = (0..500).map(|k| 0.731 * f64::from(k) + noise(k as usize)).collect();
+        let (first, apart) = (0.8, 3e-4);
+        let all = gathered_at_each(&values, first, apart, 20_000);
+        for (k, all) in all.iter().enumerate().step_by(997) {
+            let one = gathered(&values, first + k as f64 * apart);
+            assert!((all - one).abs() < 1e-9, "{k}: {all} {one}");
+        }
+        assert!(all.iter().any(|all| *all > 0.3) && all.iter().any(|all| *all < -0.01));
     }
 
     #[test]
