@@ -26,7 +26,7 @@ pub struct Bench<'a> {
     /// Whoever waits for the answer wants it now.
     pub stop: &'a (dyn Fn() -> bool + Sync),
     replays: Arc<AtomicUsize>,
-    latest: Latest,
+    latest: Arc<Latest>,
 }
 
 /// A set of candidates with their parameters, and what it costs.
@@ -81,13 +81,18 @@ impl Trial {
 impl<'a> Bench<'a> {
     /// A device with the nominal parameters that are free with every candidate.
     pub fn new(subject: &'a Subject, nuisances: Vec<Nuisance>, stop: &'a (dyn Fn() -> bool + Sync)) -> Bench<'a> {
-        Bench { subject, nuisances, stop, replays: Arc::default(), latest: Latest::default() }
+        Bench { subject, nuisances, stop, replays: Arc::default(), latest: Arc::default() }
     }
 
-    /// The same with the device as `subject` weighs it.
+    /// The same with the device as `subject` weighs it: what it predicts stays what it is.
     pub fn with<'b>(&'b self, subject: &'b Subject) -> Bench<'b> {
+        Bench { latest: self.latest.clone(), ..self.of_part(subject) }
+    }
+
+    /// The same with a part of the device's recordings.
+    pub fn of_part<'b>(&'b self, subject: &'b Subject) -> Bench<'b> {
         let (nuisances, replays) = (self.nuisances.clone(), self.replays.clone());
-        Bench { subject, nuisances, stop: self.stop, replays, latest: Latest::default() }
+        Bench { subject, nuisances, stop: self.stop, replays, latest: Arc::default() }
     }
 
     /// The device, weighed by what `trial` leaves of it.

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::gap::{Overrides, Prediction};
 use crate::plant::EffectSpec;
 
-/// How many are kept: as many as a search has ends and starts.
-const KEPT: usize = 12;
+/// How many are kept: as many as a search has ends and starts, and as another that runs at the same time.
+const KEPT: usize = 24;
 
 /// What a device was replayed with, and what it then predicted.
 type Replay = (Vec<EffectSpec>, Overrides, Arc<Prediction>);

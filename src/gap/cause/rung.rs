@@ -48,11 +48,11 @@ pub fn rung(
     let mut library = candidates_beside(bench, below, (&prediction, &score), is_asked);
     library.retain(is_admitted);
     let blurred = blur::blurred(bench.subject, &score);
-    let is_smooth = !bench.is_rugged() && is_in_levels(&score);
+    let is_smooth = !bench.is_rugged() && is_in_levels(&score, excess);
     let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
     let whole = Looks { bench, below, tangent, blurred: &blurred, afar, excess, is_smooth };
     let early = is_smooth.then(|| Early::of(bench, below, excess)).flatten();
-    let early_bench = early.as_ref().map(|early| bench.with(&early.subject));
+    let early_bench = early.as_ref().map(|early| bench.of_part(&early.subject));
     let early_looks = early.as_ref().zip(early_bench.as_ref()).and_then(|(early, bench)| early.looks(bench));
     let (looks, is_part) = (early_looks.as_ref().unwrap_or(&whole), early_looks.is_some());
     let counter = Counter { device: &bench.subject.name, of: library.len(), tell, told: Default::default() };
@@ -145,6 +145,18 @@ pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&
     if glances.is_empty() {
         return None;
     }
+    // A few steps downhill show whether there is anything in a promise: mostly there is not.
+    let is_kept = |glance: &Glance| {
+        let all = looks.all(glance, &glance.at);
+        let ranges = bench.ranges(&glance.set);
+        let residuals = |at: &[f64]| bench.residuals(&glance.set, at);
+        let fitted = least_squares(&residuals, &all, &ranges, anew(all.len()).budget);
+        fitted.is_some_and(|fitted| bare.cost - fitted.cost > least)
+    };
+    let glances: Vec<Glance> = glances.into_par_iter().with_max_len(1).filter(is_kept).collect();
+    if glances.is_empty() {
+        return None;
+    }
     let fit = |set: &[Candidate], at: Vec<f64>| bench.fit(set, std::slice::from_ref(&at), anew(at.len()));
     // An effect is no better for what the nominal parameters alone would do.
     let without = fit(&[], bare.at.clone()).map_or(bare.cost, |fitted| fitted.cost.min(bare.cost));
@@ -178,13 +190,16 @@ fn candidates_beside(
     library
 }
 
-/// Whether more of a score's excess lies in levels than in edges.
-fn is_in_levels(score: &Score) -> bool {
-    let excess = |is_level: bool| -> f64 {
+/// Whether more of an `excess` lies in levels than in edges. What goes with a motion beneath its noise is none of a level's cost above the
+/// floor, and no edge's either.
+fn is_in_levels(score: &Score, excess: f64) -> bool {
+    let above = |is_level: bool| -> f64 {
         let of = score.signals.iter().filter(|signal| signal.level.is_some() == is_level);
         of.map(|signal| (signal.cost - signal.floor_cost.0).max(0.0)).sum()
     };
-    excess(true) > excess(false)
+    let (levels, edges) = (above(true), above(false));
+    let beneath = if score.are_levels().contains(&true) { excess - edges } else { 0.0 };
+    levels.max(beneath) > edges
 }
 
 /// The best first; of several choices of one effect the best is the effect.
@@ -243,7 +258,7 @@ impl Early {
     fn of(bench: &Bench<'_>, below: &Trial, excess: f64) -> Option<Early> {
         let all = Standing::of_trial(bench, below)?.excess(below.cost);
         let subject = bench.subject.early(EARLY);
-        let there = bench.with(&subject);
+        let there = bench.of_part(&subject);
         let first = there.trial(&below.set, below.at.clone())?;
         let share = Standing::of_trial(&there, &first)?.excess(first.cost) / all;
         let shows = share >= LEAST_EARLY && share * excess >= ENOUGH_EARLY;

@@ -16,7 +16,8 @@ use super::candidate::Candidate;
 use super::ladder::{Ladder, MOST_EFFECTS, Standing, Tell, anew, is_worth_having, settle};
 use super::rung::{library_beside, rung};
 use super::unseen::Folds;
-use crate::gap::fit::{Fitted, least_squares};
+use crate::gap::fit::{Fitted, Range, Slopes, least_squares, least_squares_from};
+use crate::gap::statistics::least_gain;
 
 /// Of the excess, what must be left.
 const LEAST_LEFT: f64 = 0.1;
@@ -24,6 +25,8 @@ const LEAST_LEFT: f64 = 0.1;
 const STONES: usize = 4;
 /// How many are fitted for that: the best after a few steps downhill.
 const FITTED: usize = 16;
+/// How many steps downhill they take.
+const STEPS: u32 = 6;
 
 /// Adds two effects to the best set if together they are worth having; whether they were.
 pub fn step_by_two(
@@ -47,13 +50,23 @@ pub fn step_by_two(
     let Some(library) = library_beside(&weighed, &below, is_asked) else { return false };
     let tried = library.len();
     let alone = library.into_par_iter().with_max_len(1);
-    let mut begun: Vec<Begun> = alone.filter_map(|candidate| giving_way(&weighed, &below, candidate)).collect();
+    let known = Slopes::of(&|at: &[f64]| weighed.residuals(&below.set, at), &below.at, &below.ranges);
+    let Some(known) = known else { return false };
+    let mut begun: Vec<Begun> =
+        alone.filter_map(|candidate| giving_way(&weighed, (&below, &known), candidate)).collect();
     begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     begun.truncate(FITTED);
     let fit = |Begun { set, at, .. }: Begun| weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()));
     let mut free: Vec<Trial> = begun.into_par_iter().with_max_len(1).filter_map(fit).collect();
     free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let pairs: Vec<Trial> = stones(&free).iter().flat_map(beside).collect();
+    let mut pairs: Vec<Trial> = Vec::new();
+    for stone in stones(&free) {
+        pairs.extend(beside(&stone));
+        let leaves_nothing = |pair: &Trial| standing.excess(pair.cost) < least_gain(1, 1) * pair.inflation();
+        if pairs.iter().any(leaves_nothing) {
+            break;
+        }
+    }
     ladder.tried += tried + pairs.len();
     let pair = pairs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
     let settled = pair.and_then(|pair| settle(bench, &weighed, pair, false)).and_then(|(pair, subject)| {
@@ -78,20 +91,33 @@ struct Begun {
 }
 
 /// A candidate beside those of `below` with everything free, from near and far: what does nearly what one of them does (a lag, and a
-/// dead time) shows nothing until that gives way.
-fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<Begun> {
+/// dead time) shows nothing until that gives way. How the others give way is `known` where they stand; only the candidate's own derivatives are
+/// taken for each start.
+fn giving_way(bench: &Bench<'_>, (below, known): (&Trial, &Slopes), candidate: Candidate) -> Option<Begun> {
     let starts = candidate.starts.clone();
+    let own_ranges: Vec<Range> = candidate.ranges().collect();
+    let (before, new) = (below.parameters(), candidate.free.len());
     let set: Vec<Candidate> = below.set.iter().cloned().chain([candidate]).collect();
     let ranges = bench.ranges(&set);
     let residuals = |at: &[f64]| bench.residuals(&set, at);
+    let carried = bench.carried(&set, &below.overrides);
+    let all = |own: &[f64]| [&below.at[..before], own, &carried].concat();
+    let names: Vec<&str> = bench.names_beside(&below.set).collect();
+    let beside: Vec<usize> =
+        bench.names_beside(&set).filter_map(|name| names.iter().position(|other| *other == name)).collect();
     let count = starts.len();
     let mut places = vec![count / 4, count / 2, (3 * count) / 4];
     places.dedup();
     let fitted = places.into_iter().filter_map(|place| {
-        let mut at = below.at[..below.parameters()].to_vec();
-        at.extend(&starts[place]);
-        at.extend(bench.nominal(&set));
-        least_squares(&residuals, &at, &ranges, 6 + 2 * ranges.len() as u32)
+        let own = Slopes::of(&|own: &[f64]| residuals(&all(own)), &starts[place], &own_ranges)?;
+        let mut columns: Vec<(&Slopes, usize)> = (0..before).map(|column| (known, column)).collect();
+        columns.extend((0..new).map(|column| (&own, column)));
+        columns.extend(beside.iter().map(|column| (known, before + column)));
+        let at = all(&starts[place]);
+        match own.clone().with_columns(&columns) {
+            Some(slopes) => Some(least_squares_from(slopes, &residuals, &at, &ranges, STEPS + new as u32)),
+            None => least_squares(&residuals, &at, &ranges, STEPS + 2 * ranges.len() as u32),
+        }
     });
     let Fitted { at, cost, .. } = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
     Some(Begun { set, at, cost })
