@@ -19,6 +19,7 @@ pub(super) fn told_beside(beside: &Beside, way: &Way, mut script: Script) -> Scr
         let left = first(0.0, ends, |at| way.at(at) - way.at(0.0) >= beside.lane.length - centre);
         changes.extend([(0.0, 1)].into_iter().chain(left.map(|left| (left, -1))));
     }
+    changes.extend(stand_before_a_beam(beside, way, &script).into_iter().flat_map(|seen| [(0.0, 1), (seen, -1)]));
     // Every part once: by the beam that saw it first.
     for cut in script.cuts.iter().filter(|cut| cut.ahead == 0.0) {
         let Some(metres) = unseen_way(beside, cut) else { continue };
@@ -49,6 +50,31 @@ fn stand_unseen<'a>(beside: &'a Beside, script: &Script) -> impl Iterator<Item =
     let last = script.beams.iter().flatten().copied().fold(0.0, f64::max);
     let is_shown = beside.lane.ends[1] != End::Unknown;
     beside.stand.iter().copied().filter(move |centre| is_shown && *centre > last)
+}
+
+/// When a beam first saw each part that stood before it at the start, s: the one that came to a beam about when the belt had brought it there.
+fn stand_before_a_beam(beside: &Beside, way: &Way, script: &Script) -> Vec<f64> {
+    /// How much further or less far than its law has it a belt may have gone, as a share, and how far a part's front may be off, m.
+    const OFF: f64 = 0.25;
+    const FRONT_M: f64 = 0.2;
+    let mut first: Vec<&Cut> = script.cuts.iter().filter(|cut| cut.ahead == 0.0 && cut.way > 0.0).collect();
+    first.sort_by(|a, b| a.from.total_cmp(&b.from));
+    let mut stand: Vec<f64> = beside.stand.clone();
+    // The nearest to a beam comes first.
+    stand.sort_by(|a, b| b.total_cmp(a));
+    let mut seen = Vec::new();
+    for centre in stand {
+        let came = |cut: &&Cut| {
+            let gone = way.at(cut.from) - way.at(0.0);
+            let half = if cut.length.is_finite() { 0.5 * cut.length } else { 0.0 };
+            let missing = cut.front - half - centre;
+            missing > 0.0 && (missing - gone).abs() < FRONT_M + OFF * gone.abs()
+        };
+        if let Some(place) = first.iter().position(came) {
+            seen.push(first.remove(place).from);
+        }
+    }
+    seen
 }
 
 /// How far a part went on this belt before its first beam saw it, m: from where its bay put it, or from the belt before.
@@ -102,6 +128,16 @@ mod tests {
         let mut told = told_beside(&Beside { fed, ..Beside::default() }, &way(), script).told;
         assert_eq!([told.remove(0), told.remove(1)], [beam(0.0, true), beam(1.5, false)]);
         assert_held(&told, &[(1.3, 1), (2.0, 0)]);
+    }
+
+    /// One that stood 0.8 m before its beam until the belt had brought it there weighs from the start on; one that came from elsewhere does not.
+    #[test]
+    fn what_stood_before_a_beam_weighs_until_it_is_seen() {
+        let lane = Lane { length: 2.0, shares: false, ends: [End::Open, End::Open] };
+        let beside = |stand: f64| Beside { lane: Arc::new(lane.clone()), stand: vec![stand], ..Beside::default() };
+        let script = || Script { cuts: vec![seen_at(1.7)], beams: [Some(0.3), Some(1.7)], ..Script::default() };
+        assert_held(&told_beside(&beside(0.65), &way(), script()).told, &[(0.0, 1), (2.0, 0)]);
+        assert_held(&told_beside(&beside(0.05), &way(), script()).told, &[]);
     }
 
     /// One that comes from a belt before weighs from when its middle is on this one: 0.15 m at 0.5 m/s. One that stood behind barrier B does

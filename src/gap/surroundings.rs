@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::layout::Beside;
 use super::parts::{self, Geometry, Origin};
 use super::subject::{Run, SignalInfo, beam_of};
-use super::track::Track;
+use super::track::{Edge, Track};
 use super::way::Way;
 use super::world::{Script, Surrounding, Told};
 use super::{alone, coming};
@@ -127,7 +127,7 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, bes
     };
     let nominal = Way { metres: alone::travel(device.boxed(), run, &grid.instants), instants: grid.instants.clone() };
     // A belt that is slower than its law brings parts to the second barrier when nobody expects them, as if they were others.
-    let off = |way: &Way| mismatch(&geometry.beams, tracks, way);
+    let off = |way: &Way| mismatch((&geometry.beams, &geometry.lengths), tracks, way);
     let is_better = |way: &&Way| {
         off(way).zip(off(&nominal)).is_some_and(|(reported, law)| law > OFF_M && reported < MUCH_LESS * law)
     };
@@ -179,19 +179,31 @@ const OFF_M: f64 = 0.02;
 /// Beyond this much two sightings are of two parts, m.
 const APART_M: f64 = 0.15;
 
-/// How far from the way between its beams a belt went between what came to one and what came to the other next, m, in the mean of
-/// all; `None` where fewer than three came.
-fn mismatch(beams: &[Option<f64>; 2], tracks: [Option<&Track>; 2], way: &Way) -> Option<f64> {
+/// How far from the way between its beams a belt went between what came to one and what came to the other next, and from the length of a part
+/// while one cut a beam, m, in the mean of all; `None` where there are fewer than three of them.
+fn mismatch((beams, lengths): (&[Option<f64>; 2], &[f64]), tracks: [Option<&Track>; 2], way: &Way) -> Option<f64> {
     const ENOUGH: usize = 3;
-    let [first, second] = [tracks[0]?, tracks[1]?];
-    let between = beams[1]? - beams[0]?;
-    let came = |track: &Track| -> Vec<f64> {
-        let rises = track.edges.iter().filter(|edge| edge.to != 0.0);
-        rises.map(|edge| way.at(parts::middle(track, edge.index))).collect()
+    let instant = |track: &Track, edge: &Edge| way.at(parts::middle(track, edge.index));
+    let came = |track: Option<&Track>| -> Vec<f64> {
+        let Some(track) = track else { return Vec::new() };
+        track.edges.iter().filter(|edge| edge.to != 0.0).map(|edge| instant(track, edge)).collect()
     };
-    let (here, there) = (came(first), came(second));
-    let off = |from: &f64| there.iter().map(|to| (to - from - between).abs()).fold(APART_M, f64::min);
-    let all: Vec<f64> = here.iter().map(off).collect();
+    let [here, there] = tracks.map(came);
+    let between = beams[0].zip(beams[1]).map(|(first, second)| second - first);
+    let off = |from: &f64| {
+        let between = between?;
+        (!there.is_empty()).then(|| there.iter().map(|to| (to - from - between).abs()).fold(APART_M, f64::min))
+    };
+    let passed = |track: &Track| -> Vec<f64> {
+        let pairs = track.edges.windows(2).filter(|pair| pair[0].to != 0.0 && pair[1].to == 0.0);
+        let gone = pairs.map(|pair| instant(track, &pair[1]) - instant(track, &pair[0]));
+        // What the belt takes back the way it came, or hands take out of the beam, has gone no part's length.
+        let least = 0.5 * lengths.iter().copied().fold(f64::INFINITY, f64::min);
+        gone.filter(|gone| *gone > least)
+            .map(|gone| lengths.iter().map(|length| (gone - length).abs()).fold(APART_M, f64::min))
+            .collect()
+    };
+    let all: Vec<f64> = here.iter().filter_map(off).chain(tracks.into_iter().flatten().flat_map(passed)).collect();
     (all.len() >= ENOUGH).then(|| all.iter().sum::<f64>() / all.len() as f64)
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::intervals::Bounds;
 use crate::effect::EffectDescriptor;
 use crate::gap::fit::Range;
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
@@ -56,6 +57,16 @@ impl Candidate {
     /// Whether it is a nominal parameter that is wrong, and no effect of its own.
     pub fn is_parameter_error(&self) -> bool {
         self.effect.id == "parameter-error"
+    }
+
+    /// Whether it may be none: the interval of its main parameter holds the value at which it does nothing. `bounds`: of its own parameters.
+    pub fn may_do_nothing(&self, bounds: &[Bounds]) -> bool {
+        let parameter = |free: &Free| self.effect.parameters.iter().find(|of| of.name == free.name);
+        let nominal = self.free.first().and_then(parameter).filter(|_| !self.is_parameter_error());
+        bounds
+            .first()
+            .zip(nominal)
+            .is_some_and(|(bounds, parameter)| (bounds.interval[0]..=bounds.interval[1]).contains(&parameter.nominal))
     }
 
     /// How many numbers say what it does: those that are free, and of a signal that never changes since when it is stuck, which nothing that

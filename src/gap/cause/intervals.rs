@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
+use super::candidate::Candidate;
 use crate::gap::SignalScore;
 use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile};
 
@@ -52,6 +53,18 @@ pub fn intervals(bench: &Bench<'_>, best: &Trial, ends: Option<&[[f64; 2]]>, tic
         bounds.interval = [bounds.interval[0].min(*from), bounds.interval[1].max(*to)];
     }
     bounds
+}
+
+/// Each candidate of a set with the bounds of its own parameters.
+pub fn of_each<'a>(
+    set: &'a [Candidate],
+    mut bounds: &'a [Bounds],
+) -> impl Iterator<Item = (&'a Candidate, &'a [Bounds])> {
+    set.iter().map(move |candidate| {
+        let own;
+        (own, bounds) = bounds.split_at(candidate.free.len());
+        (candidate, own)
+    })
 }
 
 /// How many times more than its floor a device's levels cost under `best`, at least 1. Where they are weighed by what the law leaves

@@ -243,7 +243,10 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
             (range(least.max(-0.9 * unit), greatest.min(2.0 * unit), 0.01 * unit), starts)
         }
         ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
-        ("clock-drift", _) => (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 1e-2]),
+        ("clock-drift", _) => {
+            // By the end of a minute a clock that is slow by a thousandth more is late by as much as a short motion takes.
+            (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 4e-3, 6e-3, 8e-3, 1e-2])
+        }
         ("drift", _) => (range(-unit, unit, 1e-3 * unit), times(&[1e-4, -1e-4, 1e-2, -1e-2], unit)),
         ("offset", _) => (range(least, greatest, 0.01 * unit), vec![middle_difference(clues)]),
         _ if parameter.nominal == 1.0 => {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Options;
 use crate::gap::cause::{
-    Alternative, Answer, Bare, Bench, Bounds, Candidate, Free, Ladder, Nuisance, Remainder, Standing, Trial, anew,
-    answers, climb, intervals, misfit, plainness, remainder,
+    Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, MOST_INFLATED, Nuisance, Remainder, Standing, Trial,
+    anew, answers, climb, intervals, misfit, of_each, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
 use crate::gap::schedule::PART_SPACING;
@@ -93,9 +93,10 @@ fn conclude(
     let gap = subject.score(&bare.prediction);
     let (subject, bare) = chance.as_ref().map_or((subject, bare), |chance| (&chance.subject, &chance.bare));
     let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);
-    let mut ladder = climb(&bench, &bare.at, options.is_asked, options.tell)?;
+    let tick = study.ticks.iter().copied().fold(0.0, f64::max);
+    let mut ladder = climb(&bench, (&bare.at, tick), options.is_asked, options.tell)?;
     if let Some(at) = fitted_better(&bench, &ladder) {
-        ladder = climb(&bench, &at, options.is_asked, options.tell)?;
+        ladder = climb(&bench, (&at, tick), options.is_asked, options.tell)?;
     }
     let prediction = bench.predict(&[], &ladder.bare.at)?;
     let bare = subject.score(&prediction);
@@ -134,7 +135,6 @@ fn conclude(
     finding.answers = answers(&weighed, &finding.ladder, options.is_asked, options.tell);
     name_the_plainest(&mut finding);
     name_what_lets_go_at_once(&mut finding);
-    let tick = study.ticks.iter().copied().fold(0.0, f64::max);
     finding.bounds = intervals(&weighed, &finding.ladder.best, finding.ladder.ends.as_deref(), tick);
     finding.conclusion = match () {
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
@@ -147,20 +147,9 @@ fn conclude(
     Some(finding)
 }
 
-/// Whether one of several effects may be none: the interval of its main parameter holds the value at which it does nothing. Something else
-/// then takes part in what it seems to explain beside the others.
+/// Whether one of several effects may be none: something else then takes part in what it seems to explain beside the others.
 fn may_do_nothing(set: &[Candidate], bounds: &[Bounds]) -> bool {
-    let mut rest = bounds;
-    let mut each = set.iter().map(|candidate| {
-        let own;
-        (own, rest) = rest.split_at(candidate.free.len());
-        let is_main = |free: &Free| candidate.effect.parameters.iter().find(|of| of.name == free.name);
-        let nominal = candidate.free.first().and_then(is_main);
-        own.first().zip(nominal).is_some_and(|(bounds, parameter)| {
-            !candidate.is_parameter_error() && (bounds.interval[0]..=bounds.interval[1]).contains(&parameter.nominal)
-        })
-    });
-    set.len() > 1 && each.any(|may| may)
+    set.len() > 1 && of_each(set, bounds).any(|(candidate, own)| candidate.may_do_nothing(own))
 }
 
 /// Where the nominal parameters alone explain much of what an effect seemed to: the search for it moved them out of a false minimum.
@@ -182,8 +171,9 @@ fn fitted_better(bench: &Bench<'_>, ladder: &Ladder) -> Option<Vec<f64>> {
 
 /// Whether the bare model costs more than noise and the estimate of it allow: all its signals together, or one by itself.
 fn is_significant(ladder: &Ladder, bare: &Score) -> bool {
-    let least =
-        |(floor, variance): (f64, f64)| 18.0 * ladder.bare.inflation().min(10.0) + 5.0 * variance.sqrt() + 0.1 * floor;
+    let least = |(floor, variance): (f64, f64)| {
+        18.0 * ladder.bare.inflation().min(MOST_INFLATED) + 5.0 * variance.sqrt() + 0.1 * floor
+    };
     let Standing { worst, above, .. } = Standing::of(bare);
     ladder.excess() > least(ladder.floor) || above > least(worst)
 }
@@ -243,6 +233,7 @@ mod tests {
 
     use super::*;
     use crate::effect::EFFECTS;
+    use crate::gap::cause::Free;
     use crate::gap::fit::Range;
     use crate::plant::EffectPlace;
 

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use super::cause::{BLOCK_S, Tell};
 use super::page::{Added, Evidence, gather};
 use super::report::{FoundClock, NotTestable, Report, SignalNames};
-use super::{ClockOffset, Recording, Study, StudyError, Subject};
+use super::{ClockOffset, Recording, Study, StudyError, Subject, evidence};
 use crate::effect::EffectError;
 use crate::plant::Plant;
 use held_out::Measured;
@@ -82,12 +82,16 @@ pub fn diagnose(
     let study = Study::new(plant, train)?;
     let meant = study.subjects.iter().zip(&study.bare).enumerate();
     let meant = meant.filter(|(_, (subject, _))| (options.is_meant)(&subject.id.instance(plant).name));
-    let meant: Vec<_> = meant.collect();
-    let findings: Vec<Finding> = meant
+    // Where the answer is wanted before all is looked at, the largest gap has been.
+    let mut meant: Vec<_> =
+        meant.map(|(place, (subject, bare))| (evidence(subject, &bare.prediction), place, subject, bare)).collect();
+    meant.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut findings: Vec<Finding> = meant
         .into_par_iter()
         .with_max_len(1)
-        .filter_map(|(place, (subject, bare))| finding::find(place, subject, bare, &study, options))
+        .filter_map(|(_, place, subject, bare)| finding::find(place, subject, bare, &study, options))
         .collect();
+    findings.sort_by_key(|finding| finding.subject);
     let mut held_out = Study::beside(plant, held_out, &study)?;
     let too_fast = untrained::leave_out(&mut held_out, &study);
     let measured = Measured::new(plant, &held_out, &findings);
