@@ -11,6 +11,9 @@ use crate::device::{Belt, Device, Plate, Role, Surroundings, Tool};
 /// Within this a step comes whose instant a device knows, s.
 const SOON_S: f64 = 1e-7;
 
+/// What a device knows to stay for as long as this is worth a stretch of its own, s: some know less and less the nearer they come.
+const LONG_S: f64 = 1e-3;
+
 /// A device with stages around it.
 #[derive(Clone)]
 pub struct Affected {
@@ -172,7 +175,7 @@ impl Affected {
         let is_near = std::mem::take(&mut self.is_near);
         // A copy of a device takes as long as many steps of it.
         let stays = if self.watched.is_empty() { f64::INFINITY } else { self.inner.unchanged_for() };
-        if stays > SOON_S {
+        if stays > span.min(LONG_S) {
             self.is_near = stays <= span;
             self.inner.advance(span.min(stays));
             return span.min(stays);

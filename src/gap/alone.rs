@@ -428,9 +428,10 @@ fn becomes_in(
         if high - low < EDGE_S {
             break;
         }
-        // Where the device knows until when a state stays, that is mostly when it changes.
+        // Where the device knows until when a state stays, that is mostly when it changes; some know less and less the nearer they come, so that
+        // what is sought has to be halved at least.
         let stays = if what == What::State { device.unchanged_for().min(high - low) } else { 0.0 };
-        let at = match stays > EDGE_S {
+        let at = match stays > EDGE_S && stays >= 0.5 * (high - low) {
             true => {
                 device.advance(stays);
                 low += stays;
@@ -452,6 +453,55 @@ fn note_at_once(views: &mut [View], alone: &mut Alone) {
         let state = alone.reports[view.port];
         if state != view.state {
             view.becomes(state, alone.now, alone.passing(view.beam));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use crate::device::KINDS;
+    use crate::gap::{Overrides, Predicted, Recording, Study};
+    use crate::plant::{self, embedded::Embedded};
+    use crate::trace::Reader;
+
+    /// When the rig's robot is predicted to leave and to arrive, its reports being looked at every `cycle` s.
+    fn arrivals(cycle: f64) -> Vec<(f64, f64)> {
+        let plant = plant::load(&Embedded, "models/rig", KINDS).expect("the rig");
+        let mut lines: Vec<(f64, String)> = Vec::new();
+        for (at, x, y) in [(0.3, 0.31, 0.0), (1.9, 0.05, 0.17), (3.4, 0.3, -0.2)] {
+            let told = [("XTarget", x), ("YTarget", y)];
+            let told = told.map(|(name, value)| format!(r#"{{"name":"Robot.{name}","value":{value}}}"#)).join(",");
+            lines.push((at, format!(r#""automation","SendValue":[{told}]"#)));
+        }
+        for look in 1..(5.0 / cycle) as u32 {
+            let moves = look % 2;
+            let report = [("actualPosX", format!("0.{moves}")), ("cartesianArrived", "true".to_owned())];
+            let report = report.map(|(name, value)| format!(r#"{{"name":"Robot.{name}","value":{value}}}"#)).join(",");
+            lines.push((cycle * f64::from(look), format!(r#""plant","SendValue":[{report}]"#)));
+        }
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let each = lines.iter().map(|(at, line)| format!("{{\"t\":{at:.6},\"from\":{line}}}\n"));
+        let header = r#"{"trace":"kinetwin/1","source":"plant"}"#;
+        let text = format!("{header}\n{}", each.collect::<String>());
+        let reader = Reader::new("robot", Cursor::new(text.into_bytes())).expect("a trace");
+        let recording = Recording::read(&plant, "robot", reader, &[]).expect("a recording");
+        let study = Study::new(&plant, &[recording]).expect("a study");
+        let robot = study.subject("Robot").expect("the robot");
+        let arrived = robot.signals.iter().position(|info| info.property == "cartesianArrived").expect("its flag");
+        let runs = robot.predict(&[], &Overrides::none()).expect("a robot").runs;
+        let Predicted::Edges { edges, .. } = &runs[0][arrived] else { panic!("{runs:?}") };
+        edges.iter().map(|edge| (edge.at, edge.to)).collect()
+    }
+
+    /// A robot knows the less how long it stays away the nearer it comes.
+    #[test]
+    fn when_a_robot_arrives_does_not_depend_on_when_it_is_looked_at() {
+        let [fine, coarse] = [0.002, 0.05].map(arrivals);
+        assert_eq!((fine.len(), coarse.len()), (6, 6), "{fine:?} {coarse:?}");
+        for (fine, coarse) in fine.iter().zip(&coarse) {
+            assert!((fine.0 - coarse.0).abs() < 1e-6 && fine.1 == coarse.1, "{fine:?} {coarse:?}");
         }
     }
 }
