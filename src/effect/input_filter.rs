@@ -7,6 +7,7 @@ use super::first_order_lag::{Course, follow};
 use super::line::Mail;
 use super::table::{BASE, time};
 use crate::device::law::SAME_INSTANT_S;
+use crate::device::law::encoder::SAME_COUNT;
 use crate::device::path::{Moment, STEPS_STRETCH_S, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass, Site};
 use crate::plant::EffectPlace;
@@ -15,7 +16,7 @@ use crate::plant::EffectPlace;
 pub static EFFECT: EffectDescriptor = EffectDescriptor {
     id: "input-filter",
     summary: "an input is filtered before it is used",
-    equation: "number: time_constant·dy/dt + y = x; BOOL: y = x once it has stood for time_constant",
+    equation: "number: time_constant·dy/dt + y = x; BOOL or code: y = x once it has stood for time_constant",
     source: "IEC 61131-2:2017, 6.3",
     places: &[EffectPlace::CommandLink, EffectPlace::ReportLink],
     fits: &[Fit::Signals(SignalClass::Any)],
@@ -48,7 +49,7 @@ impl InputFilter {
 #[derive(Clone, Debug)]
 enum Filter {
     /// What stood at the entry and at the exit of a measured quantity last.
-    Low { input: Option<f64>, output: Option<f64> },
+    Low { input: Option<f64>, output: Option<f64>, is_whole: bool },
     /// A command that is filtered.
     Steps(Steps),
     /// What is new, and from when on it counts.
@@ -57,10 +58,13 @@ enum Filter {
 
 impl Filter {
     fn new(site: &Site) -> Filter {
+        if site.is_smooth() {
+            return Filter::Low { input: None, output: None, is_whole: site.is_whole() };
+        }
         if site.is_boolean() || site.is_whole() {
             return Filter::Stand { mail: Mail::default(), stood: None };
         }
-        if site.is_smooth() { Filter::Low { input: None, output: None } } else { Filter::Steps(Steps::default()) }
+        Filter::Steps(Steps::default())
     }
 }
 
@@ -125,10 +129,12 @@ impl Stage for InputFilter {
         }
         let span = moment.now - std::mem::replace(&mut self.last, moment.now);
         match &mut self.filter {
-            Filter::Low { input, output } => {
+            Filter::Low { input, output, is_whole } => {
                 // It has moved on a straight line since.
                 let course = Course::straight(input.replace(value).unwrap_or(value), value);
-                *output.insert(follow(output.unwrap_or(value), course, span, self.time_constant))
+                let filtered = *output.insert(follow(output.unwrap_or(value), course, span, self.time_constant));
+                // A counter that tells parts of a count is one whose steps nobody is to see.
+                if *is_whole && value.fract() == 0.0 { (filtered + SAME_COUNT).floor() } else { filtered }
             }
             Filter::Steps(steps) => steps.pass(value, moment.now, span, self.time_constant),
             Filter::Stand { mail, stood } => {
@@ -150,7 +156,7 @@ impl Stage for InputFilter {
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         visit(self.last);
         match &self.filter {
-            Filter::Low { input, output } => input.iter().chain(output).for_each(|number| visit(*number)),
+            Filter::Low { input, output, .. } => input.iter().chain(output).for_each(|number| visit(*number)),
             Filter::Steps(Steps { input, output, exit, .. }) => {
                 input.iter().chain([output, exit]).for_each(|number| visit(*number));
             }
@@ -175,6 +181,18 @@ mod tests {
         belt.check(&[("velocityTarget", 0.5)], 1.0, &[]);
         let exact = 0.5 * (1.0 - (-1.999_f64).exp());
         assert!((belt.report("velocityActual") - exact).abs() < 1e-6, "{}", belt.report("velocityActual"));
+    }
+
+    /// A count is a number, too: at 10 rad/s it is behind by what passes in the time, and a filter of next to no time stops nothing.
+    #[test]
+    fn a_count_is_behind_by_whole_counts() {
+        let counts = |angle: f64| (angle * 4096.0 / std::f64::consts::TAU).floor();
+        for (time, behind) in [(0.1, 1.0), (1e-9, 0.0)] {
+            let filter = spec("report-link", "input-filter", Some("encoder"), &[("time_constant", time)]);
+            let mut motor = with("EncoderMotor", &[], &[filter]);
+            // 2.5 rad in the ramp's half second, 20 rad after it.
+            motor.check(&[("speedTarget", 10.0), ("enable", 1.0)], 2.5, &[("encoder", counts(22.5 - behind))]);
+        }
     }
 
     #[test]

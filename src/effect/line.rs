@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::device::law::SAME_INSTANT_S;
+use crate::device::law::encoder::SAME_COUNT;
 
 /// Values that each arrive at an instant of their own, in the order they were sent.
 #[derive(Clone, Debug, Default)]
@@ -87,7 +88,7 @@ impl History {
             }
             _ => before.1,
         };
-        if self.is_whole { (value + 1e-6).floor() } else { value }
+        if self.is_whole { (value + SAME_COUNT).floor() } else { value }
     }
 
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {

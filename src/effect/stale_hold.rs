@@ -60,13 +60,16 @@ impl Stage for StaleHold {
             return value;
         }
         let window = ((moment.now + SAME_INSTANT_S) / self.time) as u64;
-        if self.window != Some(window) {
+        // However often it is looked at in the instant of a refresh, the last look is what stands.
+        let is_at_refresh = moment.now <= window as f64 * self.time + SAME_INSTANT_S;
+        if is_at_refresh {
+            self.held = value;
+        } else if self.window != Some(window) {
             // A step that nobody waited for came after the refresh of its window.
-            let is_at_refresh = moment.now <= window as f64 * self.time + SAME_INSTANT_S;
-            let is_taken = self.is_smooth || self.window.is_none() || is_at_refresh || self.time < SHORTEST_S;
+            let is_taken = self.is_smooth || self.window.is_none() || self.time < SHORTEST_S;
             self.held = if is_taken { value } else { self.entry };
-            self.window = Some(window);
         }
+        self.window = Some(window);
         self.entry = value;
         self.held
     }

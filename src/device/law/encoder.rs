@@ -13,7 +13,7 @@ pub struct Encoder {
 
 /// How close below a whole count an angle counts as on it. Rounding of the angle is a thousandth of this after hours of
 /// motion; without it a motor that returned to 0 would stand at -1 or 0 by chance.
-const SAME_COUNT: f64 = 1e-6;
+pub const SAME_COUNT: f64 = 1e-6;
 
 impl Encoder {
     /// How many counts, parts of one too, have passed at `angle`, rad, since angle 0.

@@ -13,19 +13,22 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
-use super::ladder::{Ladder, MOST_EFFECTS, Standing, Tell, anew, is_worth_having, settle};
+use super::ladder::{Ladder, MOST_EFFECTS, MOST_INFLATED, Standing, Tell, anew, is_worth_having, settle};
 use super::rung::{library_beside, rung};
+use super::tangent::{orthonormal, product, take_out};
 use super::unseen::Folds;
-use crate::gap::fit::{Fitted, Range, Slopes, least_squares, least_squares_from};
+use crate::gap::fit::{Fitted, Slopes, least_squares, sum_of_squares};
 use crate::gap::statistics::least_gain;
 
 /// Of the excess, what must be left.
 const LEAST_LEFT: f64 = 0.1;
 /// How many candidates are stepped on.
 const STONES: usize = 4;
-/// How many are fitted for that: the best after a few steps downhill.
+/// How many go a few steps downhill for that: those that promise to leave the least.
+const LOOKED_AT: usize = 32;
+/// How many of them are fitted.
 const FITTED: usize = 16;
-/// How many steps downhill they take.
+/// How many steps downhill, beside those that tell two slopes of each parameter.
 const STEPS: u32 = 6;
 
 /// Adds two effects to the best set if together they are worth having; whether they were.
@@ -49,11 +52,13 @@ pub fn step_by_two(
     let beside = |stone: &Trial| rung(&weighed, stone, standing.excess(stone.cost), is_asked, &|_| true, tell);
     let Some(library) = library_beside(&weighed, &below, is_asked) else { return false };
     let tried = library.len();
-    let alone = library.into_par_iter().with_max_len(1);
-    let known = Slopes::of(&|at: &[f64]| weighed.residuals(&below.set, at), &below.at, &below.ranges);
-    let Some(known) = known else { return false };
-    let mut begun: Vec<Begun> =
-        alone.filter_map(|candidate| giving_way(&weighed, (&below, &known), candidate)).collect();
+    let Some(about) = About::new(&weighed, &below) else { return false };
+    let promised = library.into_par_iter().with_max_len(1).map(|candidate| (about.leaves(&candidate), candidate));
+    let mut promised: Vec<(f64, Candidate)> = promised.collect();
+    promised.sort_by(|a, b| a.0.total_cmp(&b.0));
+    promised.truncate(LOOKED_AT);
+    let alone = promised.into_par_iter().with_max_len(1);
+    let mut begun: Vec<Begun> = alone.filter_map(|(_, candidate)| giving_way(&weighed, &below, candidate)).collect();
     begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     begun.truncate(FITTED);
     let fit = |Begun { set, at, .. }: Begun| weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()));
@@ -62,7 +67,9 @@ pub fn step_by_two(
     let mut pairs: Vec<Trial> = Vec::new();
     for stone in stones(&free) {
         pairs.extend(beside(&stone));
-        let leaves_nothing = |pair: &Trial| standing.excess(pair.cost) < least_gain(1, 1) * pair.inflation();
+        // What is left of a swing remembers itself as long as that: it would be nothing by a hundred times its noise.
+        let leaves_nothing =
+            |pair: &Trial| standing.excess(pair.cost) < least_gain(1, 1) * pair.inflation().min(MOST_INFLATED);
         if pairs.iter().any(leaves_nothing) {
             break;
         }
@@ -90,34 +97,66 @@ struct Begun {
     cost: f64,
 }
 
-/// A candidate beside those of `below` with everything free, from near and far: what does nearly what one of them does (a lag, and a
-/// dead time) shows nothing until that gives way. How the others give way is `known` where they stand; only the candidate's own derivatives are
-/// taken for each start.
-fn giving_way(bench: &Bench<'_>, (below, known): (&Trial, &Slopes), candidate: Candidate) -> Option<Begun> {
-    let starts = candidate.starts.clone();
-    let own_ranges: Vec<Range> = candidate.ranges().collect();
-    let (before, new) = (below.parameters(), candidate.free.len());
-    let set: Vec<Candidate> = below.set.iter().cloned().chain([candidate]).collect();
-    let ranges = bench.ranges(&set);
-    let residuals = |at: &[f64]| bench.residuals(&set, at);
-    let carried = bench.carried(&set, &below.overrides);
-    let all = |own: &[f64]| [&below.at[..before], own, &carried].concat();
-    let names: Vec<&str> = bench.names_beside(&below.set).collect();
-    let beside: Vec<usize> =
-        bench.names_beside(&set).filter_map(|name| names.iter().position(|other| *other == name)).collect();
-    let count = starts.len();
+/// Which starts of a candidate are tried, the near ones and the far ones.
+fn places(candidate: &Candidate) -> Vec<usize> {
+    let count = candidate.starts.len();
     let mut places = vec![count / 4, count / 2, (3 * count) / 4];
     places.dedup();
-    let fitted = places.into_iter().filter_map(|place| {
-        let own = Slopes::of(&|own: &[f64]| residuals(&all(own)), &starts[place], &own_ranges)?;
-        let mut columns: Vec<(&Slopes, usize)> = (0..before).map(|column| (known, column)).collect();
-        columns.extend((0..new).map(|column| (&own, column)));
-        columns.extend(beside.iter().map(|column| (known, before + column)));
-        let at = all(&starts[place]);
-        match own.clone().with_columns(&columns) {
-            Some(slopes) => Some(least_squares_from(slopes, &residuals, &at, &ranges, STEPS + new as u32)),
-            None => least_squares(&residuals, &at, &ranges, STEPS + 2 * ranges.len() as u32),
-        }
+    places
+}
+
+/// A trial, and how what it leaves changes with all that is free.
+struct About<'a> {
+    bench: &'a Bench<'a>,
+    below: &'a Trial,
+    /// How many residuals the recordings have: tolerances' come behind.
+    rows: usize,
+    basis: Vec<Vec<f64>>,
+    left: Vec<f64>,
+}
+
+impl<'a> About<'a> {
+    fn new(bench: &'a Bench<'a>, below: &'a Trial) -> Option<About<'a>> {
+        let slopes = Slopes::of(&|at: &[f64]| bench.residuals(&below.set, at), &below.at, &below.ranges)?;
+        let rows = slopes.here().len() - bench.names_beside(&below.set).count();
+        let column = |place: usize| slopes.column(place)[..rows].to_vec();
+        let basis = orthonormal(&(0..below.ranges.len()).map(column).collect::<Vec<_>>());
+        let mut left = slopes.here()[..rows].to_vec();
+        take_out(&mut left, &basis);
+        Some(About { bench, below, rows, basis, left })
+    }
+
+    /// About how much a candidate would leave if all gave way, to first order: at the best of its starts, or where that points to.
+    fn leaves(&self, candidate: &Candidate) -> f64 {
+        let set: Vec<Candidate> = self.below.set.iter().chain([candidate]).cloned().collect();
+        let carried = self.bench.carried(&set, &self.below.overrides);
+        let leaves = |place: usize| {
+            let at = [&self.below.at[..self.below.parameters()], &candidate.starts[place], &carried].concat();
+            let mut there = self.bench.residuals(&set, &at)?;
+            there.truncate(there.len() - carried.len());
+            if there.len() != self.rows {
+                return Some(sum_of_squares(&there));
+            }
+            take_out(&mut there, &self.basis);
+            let moved: Vec<f64> = there.iter().zip(&self.left).map(|(there, left)| there - left).collect();
+            let (along, squared) = (product(&moved, &self.left), sum_of_squares(&moved));
+            let gain = if squared > 0.0 && along < 0.0 { along * along / squared } else { 0.0 };
+            Some(sum_of_squares(&there).min(sum_of_squares(&self.left) - gain))
+        };
+        places(candidate).into_iter().filter_map(leaves).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A candidate beside those of `below` with everything free, from near and far: what does nearly what one of them does (a lag, and a
+/// dead time) shows nothing until that gives way.
+fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<Begun> {
+    let starts: Vec<Vec<f64>> = places(&candidate).into_iter().map(|place| candidate.starts[place].clone()).collect();
+    let set: Vec<Candidate> = below.set.iter().cloned().chain([candidate]).collect();
+    let ranges = bench.ranges(&set);
+    let carried = bench.carried(&set, &below.overrides);
+    let fitted = starts.into_iter().filter_map(|own| {
+        let at = [&below.at[..below.parameters()], &own, &carried].concat();
+        least_squares(&|at: &[f64]| bench.residuals(&set, at), &at, &ranges, STEPS + 2 * ranges.len() as u32)
     });
     let Fitted { at, cost, .. } = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
     Some(Begun { set, at, cost })

@@ -53,21 +53,6 @@ impl Slopes {
         self.each.column(parameter).iter().copied().collect()
     }
 
-    /// The same residuals with other derivatives: those of `columns`, each of some slopes and a parameter of them. `None` where they are of
-    /// other residuals.
-    pub fn with_columns(self, columns: &[(&Slopes, usize)]) -> Option<Slopes> {
-        let rows = self.here.len();
-        if columns.iter().any(|(slopes, _)| slopes.here.len() != rows) {
-            return None;
-        }
-        let each = DMatrix::from_fn(rows, columns.len(), |row, column| {
-            let (slopes, parameter) = columns[column];
-            slopes.each[(row, parameter)]
-        });
-        let steps = columns.iter().map(|(slopes, parameter)| slopes.steps[*parameter]).collect();
-        Some(Slopes { here: self.here, each, steps })
-    }
-
     /// The same where each of the first residuals has a weight of its own, and what lies behind them that of 1.
     pub fn weighted(&self, weights: &[f64]) -> Slopes {
         let weights = || weights.iter().copied().chain(std::iter::repeat(1.0));
