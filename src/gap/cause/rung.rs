@@ -446,14 +446,31 @@ impl Looks<'_> {
         looks
     }
 
-    /// Looks where the most promising look says that the least cost is, if the effect is a multiple of its parameter.
-    fn look_ahead(&self, sight: &Sight<'_>, glance: &Glance, nominal: f64, looks: &[Look]) -> Option<Look> {
-        let best = looks.iter().filter(|look| look.moved > 0.0).max_by(|a, b| a.promise.total_cmp(&b.promise))?;
+    /// Looks where the most promising look says that the least cost is, if the effect is a multiple of its parameter; from there again as
+    /// long as that costs more than no effect: of a start that is a hundred times too far such a step is off by more than what there is.
+    fn look_ahead(&self, sight: &Sight<'_>, glance: &Glance, nominal: f64, looks: &[Look]) -> Vec<Look> {
+        const STEPS: usize = 3;
         let range = glance.candidate.free[0].range;
-        let at = nominal + best.multiple * (best.at[0] - nominal);
-        let is_inside = best.multiple.is_finite() && (range.least..=range.greatest).contains(&at);
+        let without = sum_of_squares(sight.here);
+        let mut ahead: Vec<Look> = Vec::new();
         // What is nominally without limit is no multiple of anything.
-        if is_inside && nominal.abs() < UNLIMITED { self.look(sight, glance, &[at]) } else { None }
+        let most = if nominal.abs() < UNLIMITED { STEPS } else { 0 };
+        while ahead.len() < most {
+            let of_starts =
+                || looks.iter().filter(|look| look.moved > 0.0).max_by(|a, b| a.promise.total_cmp(&b.promise));
+            let Some(from) = ahead.last().or_else(of_starts) else { break };
+            let at = nominal + from.multiple * (from.at[0] - nominal);
+            if !from.multiple.is_finite() || !(range.least..=range.greatest).contains(&at) {
+                break;
+            }
+            let Some(look) = self.look(sight, glance, &[at]) else { break };
+            let is_there = look.cost < without;
+            ahead.push(look);
+            if is_there {
+                break;
+            }
+        }
+        ahead
     }
 
     /// The same of several parameters, the first of which says how much there is of an effect, such as the force of a friction that falls
