@@ -10,7 +10,9 @@ pub(super) struct Cylinder {
     settings: StrokeSettings,
     stroke: Stroke,
     drive: Drive,
-    /// What its valve does, after the actuator's stages.
+    /// The coil that draws, after the actuator's stages; one that is told to lets go before the other is seen to.
+    coil: Drive,
+    /// What its valve does.
     valve: Drive,
     pub stages: Stages,
     /// How steeply it slows down while it is held, m/s²: nominally it stands at once.
@@ -28,6 +30,7 @@ impl Cylinder {
             settings,
             stroke: Stroke::new(settings),
             drive: Drive::Hold,
+            coil: Drive::Hold,
             valve: Drive::Hold,
             stages: Stages::default(),
             coasting: f64::INFINITY,
@@ -51,18 +54,23 @@ impl Cylinder {
     /// Lets the command pass the actuator's stages and sets valve and throttles to what comes out.
     fn pass(&mut self, moment: Moment) {
         let before = self.speed;
-        let Cylinder { settings, stroke, drive, valve, stages, piston, .. } = self;
+        let Cylinder { settings, stroke, drive, coil, valve, stages, piston, .. } = self;
         if stages.is_nominal() {
             *valve = *drive;
             return;
         }
-        let on = stages.actuator.switched(*drive != Drive::Hold, moment);
-        *valve = match (on, *drive) {
+        let turns_round = *drive != Drive::Hold && *coil != Drive::Hold && *drive != *coil;
+        let both_draw = turns_round && stages.actuator.switched(false, moment);
+        let on = both_draw || stages.actuator.switched(*drive != Drive::Hold, moment);
+        *coil = match (on, *drive) {
+            _ if both_draw => *coil,
             (false, _) => Drive::Hold,
             // Told to hold, but not yet off: it goes on as it went.
-            (true, Drive::Hold) => *valve,
+            (true, Drive::Hold) => *coil,
             (true, drive) => drive,
         };
+        // Between two coils that both draw the springs of a valve keep it in its middle.
+        *valve = if both_draw { Drive::Hold } else { *coil };
         let bounds = Bounds {
             velocity: f64::INFINITY,
             acceleration: f64::INFINITY,
@@ -214,6 +222,7 @@ impl Cylinder {
         visit(f64::from(self.valve as u8));
         if !self.stages.is_nominal() {
             visit(self.speed);
+            visit(f64::from(self.coil as u8));
         }
         self.stages.state(visit);
     }

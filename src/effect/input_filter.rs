@@ -191,7 +191,9 @@ mod tests {
             let filter = spec("report-link", "input-filter", Some("encoder"), &[("time_constant", time)]);
             let mut motor = with("EncoderMotor", &[], &[filter]);
             // 2.5 rad in the ramp's half second, 20 rad after it.
-            motor.check(&[("speedTarget", 10.0), ("enable", 1.0)], 2.5, &[("encoder", counts(22.5 - behind))]);
+            motor.check(&[("speedTarget", 10.0), ("enable", 1.0)], 2.5, &[]);
+            let (count, whole) = (motor.report("encoder"), counts(22.5 - behind));
+            assert!(count.fract() == 0.0 && (count - whole).abs() <= 1.0, "{count} for {whole}");
         }
     }
 

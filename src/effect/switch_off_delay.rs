@@ -1,5 +1,6 @@
 //! `switch-off-delay`: the drive is switched off late: contactors, valves and brakes take their time. What reports that it was
-//! told to (`driveEnabled`, `inverterReady`) does not wait for it.
+//! told to (`driveEnabled`, `inverterReady`) does not wait for it. A cylinder that is to turn round stands until the coil of the one
+//! way has let go: where both draw, the springs of a valve of five ports and three positions keep it in its middle.
 //!
 //! Source: the timer TOF of IEC 61131-3:2013, 6.6.3.5.5, on the switch of the drive.
 
@@ -69,5 +70,21 @@ mod tests {
         gripper.check(&[("suctionOn", 1.0)], 1.0, &[("vacuumOn", 1.0)]);
         gripper.check(&[("suctionOn", 0.0)], 0.179, &[("vacuumOn", 1.0)]);
         gripper.check(&[], 0.001, &[("vacuumOn", 0.0)]);
+    }
+
+    #[test]
+    fn a_cylinder_that_turns_round_waits_until_its_coil_lets_go() {
+        let mut pusher = with("Pusher", &[], &[spec("actuator", "switch-off-delay", None, &[("time", 0.1)])]);
+        pusher.check(&[("command", 1.0)], 5.0, &[("limitExtended", 1.0), ("isRunning", 0.0)]);
+        pusher.check(&[("command", 2.0)], 0.0999, &[("limitExtended", 1.0), ("isRunning", 0.0)]);
+        pusher.check(&[], 0.0002, &[("isRunning", 1.0)]);
+        pusher.check(&[], 5.0, &[("limitRetracted", 1.0)]);
+        pusher.check(&[("command", 0.0)], 1.0, &[]);
+        // Under way it goes on as it went when it is told to hold, and stands while both coils draw: 0.15 s out, and as far back.
+        pusher.check(&[("command", 1.0)], 0.1, &[("isRunning", 1.0)]);
+        pusher.check(&[("command", 0.0)], 0.05, &[("isRunning", 1.0)]);
+        pusher.check(&[("command", 2.0)], 0.0499, &[("isRunning", 0.0)]);
+        pusher.check(&[], 0.1402, &[("isRunning", 1.0), ("limitRetracted", 0.0)]);
+        pusher.check(&[], 0.0102, &[("limitRetracted", 1.0)]);
     }
 }

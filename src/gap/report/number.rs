@@ -32,10 +32,15 @@ pub fn scaled_unit(number: f64, unit: &str) -> (f64, String) {
     }
 }
 
-/// A number with its unit: `0.58 mm`, `1.99 m/s²`.
+/// A number with its unit: `0.58 mm`, `1.99 m/s²`. A gain that is nearly 1 has as many digits as show what it is beside that.
 pub fn quantity(number: f64, unit: &str) -> String {
+    const FEWEST: i32 = 4;
+    const MOST: i32 = 8;
     let (factor, unit) = scaled_unit(number, unit);
-    with_unit(significant(number * factor, 4), &unit)
+    let beside = (number - 1.0).abs();
+    let is_nearly_one = unit.is_empty() && beside > 0.0 && beside < 0.1;
+    let digits = if is_nearly_one { (2 - beside.log10().floor() as i32).clamp(FEWEST, MOST) } else { FEWEST };
+    with_unit(significant(number * factor, digits), &unit)
 }
 
 /// A number with its interval, with as many digits as tell its ends apart.
@@ -73,6 +78,8 @@ mod tests {
         assert_eq!(quantity(1.992_54, "m/s2"), "1.993 m/s²");
         assert_eq!(quantity(0.06, "1"), "0.06");
         assert_eq!(quantity(0.021, "s"), "21 ms");
+        assert_eq!(quantity(1.000_009_6, "1"), "1.0000096");
+        assert_eq!((quantity(1.002_37, "1"), quantity(1.25, "1")), ("1.0024".to_owned(), "1.25".to_owned()));
         assert_eq!(interval(1.992_541, [1.992_51, 1.992_57], "m/s2"), "1.992541 m/s² (95 %: 1.99251 to 1.99257)");
         assert_eq!(interval(0.06, [0.055, 0.066], "1"), "0.06 (95 %: 0.055 to 0.066)");
         assert_eq!(percent(0.042), "4.2 %");
