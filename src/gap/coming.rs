@@ -1,5 +1,5 @@
-//! Parts that weigh on a belt though none of its beams has seen them: those on their way to the first one, and those behind the last one
-//! from the start.
+//! Parts that weigh on a belt though none of its beams has seen them: those on their way to the first one, those that are so still when the
+//! recording ends, and those behind the last one from the start.
 
 use super::lane::End;
 use super::layout::Beside;
@@ -20,14 +20,17 @@ pub(super) fn told_beside(beside: &Beside, way: &Way, mut script: Script) -> Scr
         changes.extend([(0.0, 1)].into_iter().chain(left.map(|left| (left, -1))));
     }
     changes.extend(stand_before_a_beam(beside, way, &script).into_iter().flat_map(|seen| [(0.0, 1), (seen, -1)]));
+    let mut put: Vec<f64> = Vec::new();
     // Every part once: by the beam that saw it first.
     for cut in script.cuts.iter().filter(|cut| cut.ahead == 0.0) {
         let Some(metres) = unseen_way(beside, cut) else { continue };
         let gone = |at: f64| cut.way * (way.at(cut.from) - way.at(at));
         if let Some(since) = first(0.0, cut.from, |before| gone(cut.from - before) >= metres) {
             changes.extend([(cut.from - since, 1), (cut.from, -1)]);
+            put.push(cut.from - since);
         }
     }
+    changes.extend(put_unseen(beside, way, &script, put).into_iter().map(|at| (at, 1)));
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut held = 0;
     script.told.extend(changes.into_iter().map(|(at, by)| {
@@ -77,6 +80,34 @@ fn stand_before_a_beam(beside: &Beside, way: &Way, script: &Script) -> Vec<f64> 
     seen
 }
 
+/// When the bay put each part that no beam has seen by the recording's end, s: when it was due, its place was free, and the belt did not bring
+/// it as far as a beam since. `put`: when those were put that a beam has seen; where one of them was not due then, or there is none, the
+/// recording does not follow the bay's own schedule.
+fn put_unseen(beside: &Beside, way: &Way, script: &Script, mut put: Vec<f64>) -> Vec<f64> {
+    /// How far from its instant a part is told to have been put, s.
+    const OFF_S: f64 = 0.5;
+    let Some((fed, due)) = beside.fed.and_then(|fed| Some((fed, fed.due?))) else { return Vec::new() };
+    let beam = script.beams.iter().flatten().copied().filter(|beam| *beam > fed.at).reduce(f64::min);
+    let Some(metres) = beam.map(|beam| beam - fed.at - 0.5 * fed.length) else { return Vec::new() };
+    let ends = way.instants.last().copied().unwrap_or(0.0);
+    let is_near = |put: &[f64], at: f64| put.iter().any(|put| (put - at).abs() < OFF_S);
+    let dues: Vec<f64> = due.until(ends).collect();
+    if put.is_empty() || !put.iter().all(|at| is_near(&dues, *at)) {
+        return Vec::new();
+    }
+    let gone = |from: f64, to: f64| way.at(to) - way.at(from);
+    let mut unseen = Vec::new();
+    for at in dues {
+        let is_free = put.iter().all(|put| gone(*put, at).abs() >= fed.length);
+        let is_left = due.limit.is_none_or(|limit| put.len() < limit);
+        if !is_near(&put, at) && is_free && is_left && gone(at, ends) < metres {
+            put.push(at);
+            unseen.push(at);
+        }
+    }
+    unseen
+}
+
 /// How far a part went on this belt before its first beam saw it, m: from where its bay put it, or from the belt before.
 fn unseen_way(beside: &Beside, cut: &Cut) -> Option<f64> {
     let fed = beside.fed.filter(|_| cut.way > 0.0).map(|fed| cut.front - fed.at - 0.5 * fed.length);
@@ -96,7 +127,7 @@ mod tests {
     use super::*;
     use crate::gap::TaskId;
     use crate::gap::lane::Lane;
-    use crate::gap::layout::Fed;
+    use crate::gap::layout::{Due, Fed};
 
     /// A belt that always runs at 0.5 m/s.
     fn way() -> Way {
@@ -121,13 +152,31 @@ mod tests {
     #[test]
     fn what_a_bay_put_weighs_beside_what_is_played_back() {
         let bay = TaskId { instance: 0, task: 0 };
-        let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true });
+        let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, due: None });
         let beam = |at: f64, is_on: bool| Told { at, what: Surrounding::BarrierB, is_on };
         let told = vec![beam(0.0, true), beam(1.5, false)];
         let script = Script { cuts: vec![seen_at(0.7)], told, ..Script::default() };
         let mut told = told_beside(&Beside { fed, ..Beside::default() }, &way(), script).told;
         assert_eq!([told.remove(0), told.remove(1)], [beam(0.0, true), beam(1.5, false)]);
         assert_held(&told, &[(1.3, 1), (2.0, 0)]);
+    }
+
+    /// One that was due 0.5 s before the recording's end has not come to the beam, 0.35 m on; it weighs if the one before it was put when that
+    /// was due, and has left its place.
+    #[test]
+    fn what_a_bay_put_last_weighs_though_no_beam_sees_it_any_more() {
+        let bay = TaskId { instance: 0, task: 0 };
+        let held = |first: f64, interval: f64, limit: Option<usize>| {
+            let due = Some(Due { first, interval, limit });
+            let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, due });
+            let script = Script { cuts: vec![seen_at(0.7)], beams: [Some(0.7), None], ..Script::default() };
+            told_beside(&Beside { fed, ..Beside::default() }, &way(), script).told
+        };
+        assert_held(&held(1.3, 2.2, None), &[(1.3, 1), (2.0, 0), (3.5, 1)]);
+        assert_held(&held(1.3, 2.2, Some(1)), &[(1.3, 1), (2.0, 0)]);
+        assert_held(&held(0.5, 2.2, None), &[(1.3, 1), (2.0, 0)]);
+        // At 1.88 s its place is taken, and what was put at 2.46 s would have been seen.
+        assert_held(&held(1.3, 0.58, None), &[(1.3, 1), (2.0, 0), (3.62, 1)]);
     }
 
     /// One that stood 0.8 m before its beam until the belt had brought it there weighs from the start on; one that came from elsewhere does not.

@@ -51,6 +51,28 @@ pub(super) struct Fed {
     pub length: f64,
     /// Whether they lie along the belt.
     pub is_along: bool,
+    /// When they are due; `None` where that is random.
+    pub due: Option<Due>,
+}
+
+/// The instants at which a bay's parts are due, by its own parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Due {
+    /// The first, s.
+    pub first: f64,
+    /// From one to the next, s.
+    pub interval: f64,
+    /// How many parts there are at the most.
+    pub limit: Option<usize>,
+}
+
+impl Due {
+    /// Those up to an instant, s.
+    pub fn until(&self, end: f64) -> impl Iterator<Item = f64> + use<> {
+        let Due { first, interval, .. } = *self;
+        let instants = (0..).map(move |count| first + f64::from(count) * interval);
+        instants.take_while(move |at| interval > 0.0 && *at <= end)
+    }
 }
 
 /// The belts and plates of a plant, by their subjects.
@@ -276,7 +298,10 @@ fn feeds(plant: &Plant) -> Vec<(String, Fed)> {
         let ParameterValue::Numbers(size) = &parameters.0.get("size")?.value else { return None };
         let (at, length) = (parameters.number("at"), *size.first()?);
         let is_along = parameters.number("turn").cos().abs() > ALONG;
-        Some((parameters.text("belt").to_owned(), Fed { bay, at, length, is_along }))
+        let [first, interval, spread] = ["firstTime", "interval", "spread"].map(|name| parameters.number(name));
+        let limit = Some(parameters.integer("limit") as usize).filter(|limit| *limit > 0);
+        let due = (spread == 0.0).then_some(Due { first, interval, limit });
+        Some((parameters.text("belt").to_owned(), Fed { bay, at, length, is_along, due }))
     });
     put.collect()
 }

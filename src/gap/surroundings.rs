@@ -190,8 +190,10 @@ fn mismatch((beams, lengths): (&[Option<f64>; 2], &[f64]), tracks: [Option<&Trac
     };
     let [here, there] = tracks.map(came);
     let between = beams[0].zip(beams[1]).map(|(first, second)| second - first);
+    let gone = way.metres.last().copied().unwrap_or(0.0);
     let off = |from: &f64| {
-        let between = between?;
+        // What is still under way has come nowhere.
+        let between = between.filter(|between| from + between <= gone)?;
         (!there.is_empty()).then(|| there.iter().map(|to| (to - from - between).abs()).fold(APART_M, f64::min))
     };
     let passed = |track: &Track| -> Vec<f64> {
