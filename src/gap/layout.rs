@@ -323,15 +323,9 @@ fn way_of(subject: &Subject, run: usize, sign: f64) -> Result<Option<Way>, Effec
     let of = &subject.runs[run];
     let speed = subject.signals.iter().position(|info| info.property == "velocityActual");
     if let Some(track) = speed.and_then(|place| of.tracks[place].as_ref()) {
-        let late = of.task.age_s;
-        let instants: Vec<f64> = track.grid.instants[track.first..].iter().map(|at| at - late).collect();
-        let mut way = 0.0;
-        let ways = instants.windows(2).zip(track.values.windows(2)).map(|(at, speed)| {
-            way += sign * 0.5 * (speed[0] + speed[1]) * (at[1] - at[0]);
-            way
-        });
-        let metres = std::iter::once(0.0).chain(ways).collect();
-        return Ok(Some(Way { instants, metres }));
+        let instants: Vec<f64> = track.grid.instants[track.first..].iter().map(|at| at - of.task.age_s).collect();
+        let values: Vec<f64> = track.values.iter().map(|speed| sign * speed).collect();
+        return Ok(Some(Way::of_reports(&instants, &values, track.grid.cycle)));
     }
     if of.commands.is_empty() {
         return Ok(None);
