@@ -16,7 +16,7 @@ use super::terminal::{Key, Terminal};
 use super::words;
 use super::{Answer, Failure};
 use crate::pace::WallClock;
-use crate::run::{self, Gravity, Handle, Notice, Options, RecordTo, Summary};
+use crate::run::{self, Gravity, Handle, Notice, Options, RecordTo, Stop, Summary};
 use crate::session::Limits;
 
 /// Runs a model to its end.
@@ -28,8 +28,10 @@ pub fn run(arguments: &RunArguments) -> Result<Answer, Failure> {
         let address = address.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
         return end(arguments, &super::view::run_viewed(&options, address, arguments.json)?);
     }
-    let handle = run::start(&options)?;
-    let interruption = Interruption::watch(handle.stopper())?;
+    // Before anything of it is to be seen: whoever sees it may ask it to end.
+    let stop = Stop::default();
+    let interruption = Interruption::watch(stop.clone())?;
+    let handle = run::start_until(&options, stop)?;
     let screen = if arguments.json { None } else { Terminal::take()? };
     match screen {
         Some(screen) => show(&handle, screen, &interruption, &log)?,

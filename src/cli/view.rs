@@ -147,9 +147,9 @@ pub fn run_viewed(options: &Options, address: SocketAddr, json: bool) -> Result<
     let listening = listen(address)?;
     let url = listening.url();
     let mut options = Options { controlled: true, ..options.clone() };
-    let mut handle = run::start(&options)?;
     let quit = Stop::default();
     let _interruption = Interruption::watch(quit.clone())?;
+    let mut handle = run::start(&options)?;
     let told = Arc::new(Told::default());
     let live = Live::new(&handle, options.record.as_ref().map(|record| record.path.clone()));
     let Some(steering) = handle.steering() else { unreachable!("its options ask for control") };

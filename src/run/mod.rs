@@ -240,20 +240,29 @@ impl Handle {
 /// # Errors
 /// Nothing has been started, opened or written where one is given.
 pub fn start(options: &Options) -> Result<Handle, RunError> {
+    start_until(options, Stop::default())
+}
+
+/// The same of a run that `stop` ends, also where it is asked before the run has begun.
+pub fn start_until(options: &Options, stop: Stop) -> Result<Handle, RunError> {
     let plant = Arc::new(model::load(&options.model)?);
     options.validate()?;
     if let MapState::Differs { path, differences } = model::map_state(&plant)? {
         return Err(RunError::Map { model: options.model.clone(), path, differences });
     }
-    start_plant(options, plant)
+    begin(options, plant, stop)
 }
 
 /// Starts a run of `plant`, which is there already; the options' model is only its name, and no signals map is compared.
 pub fn start_plant(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunError> {
     options.validate()?;
+    begin(options, plant, Stop::default())
+}
+
+fn begin(options: &Options, plant: Arc<Plant>, stop: Stop) -> Result<Handle, RunError> {
     match (options.speed, options.automation_of(&plant)) {
-        (Speed::Wall(speed), connect) => wall::start(options, plant, connect, speed),
-        (Speed::Max, Connect::Embedded) => stepped::start(options, plant),
+        (Speed::Wall(speed), connect) => wall::start(options, plant, (connect, speed), stop),
+        (Speed::Max, Connect::Embedded) => stepped::start(options, plant, stop),
         (Speed::Max, Connect::Server(endpoint)) => Err(RunError::ForeignMax(endpoint)),
     }
 }

@@ -131,8 +131,8 @@ impl Stepper {
 /// Steps between two looks at the wall clock, for the live view.
 const STEPS_A_LOOK: u64 = 64;
 
-/// Starts a run of `plant` as fast as possible, on a thread of its own.
-pub(super) fn start(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunError> {
+/// Starts a run of `plant` as fast as possible, on a thread of its own, until `stop`.
+pub(super) fn start(options: &Options, plant: Arc<Plant>, stop: Stop) -> Result<Handle, RunError> {
     let stepper = Stepper::of(options, plant)?;
     let (controls, desk) = stepper.record.is_some().then(|| control::desk(options.speed)).unzip();
     let ends = controls.zip(stepper.record.clone()).zip(stepper.scene.clone());
@@ -144,7 +144,6 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>) -> Result<Handle, RunE
         round_trip: Arc::new(Quantiles::default),
     });
     let facts = stepper.facts.clone();
-    let stop = Stop::default();
     let (say, notices) = bounded(NOTICES);
     let (simulation_frames, simulation_viewer) = live::channel();
     let (exchange_frames, exchange_viewer) = live::channel();

@@ -30,8 +30,13 @@ pub(super) const NOTICES: usize = 1_024;
 /// How often the simulation shows itself.
 pub(super) const FRAME_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Starts a run of `plant` at `speed` simulated seconds a second.
-pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, speed: f64) -> Result<Handle, RunError> {
+/// Starts a run of `plant` at `speed` simulated seconds a second, until `stop`.
+pub(super) fn start(
+    options: &Options,
+    plant: Arc<Plant>,
+    (connect, speed): (Connect, f64),
+    stop: Stop,
+) -> Result<Handle, RunError> {
     let mut engine = model::engine(&plant, options.step, options.seed)?;
     let scene = (options.controlled || options.collisions).then(|| show(&mut engine, &plant));
     if options.collisions {
@@ -54,7 +59,6 @@ pub(super) fn start(options: &Options, plant: Arc<Plant>, connect: Connect, spee
     let (controls, desk) = record.is_some().then(|| control::desk(options.speed)).unzip();
 
     let (simulation_side, io_side) = bank::new(&facts.plant.signal_map);
-    let stop = Stop::default();
     let (say, notices) = bounded(NOTICES);
     let (simulation_frames, simulation_viewer) = live::channel();
     let (exchange_frames, exchange_viewer) = live::channel();

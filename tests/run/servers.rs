@@ -167,6 +167,16 @@ fn ctrl_c_waits_for_the_answer_no_longer_than_the_timeout() {
     assert_eq!(ended.json()["sessions"], 1);
 }
 
+/// Who is called upon may want an end at once: it was listened for before.
+#[test]
+fn ctrl_c_at_the_first_sign_of_life_ends_in_good_order() {
+    let host = Host::new();
+    let run = run_against(&host);
+    let _connection = host.accept();
+    run.interrupt();
+    assert_eq!(run.end().json()["sessions"], 0);
+}
+
 #[test]
 fn a_second_ctrl_c_ends_at_once() {
     let host = Host::new();
