@@ -5,13 +5,27 @@
 
 use super::layout::Fed;
 use super::recording::TaskId;
-use crate::device::Role;
+use crate::device::{Device, Role};
 use crate::effect::{self, EffectError};
 use crate::plant::{EffectSpec, Parameters, Plant};
 use crate::prototype::kind::KindDescriptor;
 
 /// The effect of a bay that the belt shows in whatever it reports of parts.
 const PART_LENGTH: &str = "part-length-error";
+
+/// When a bay's parts are due up to an instant, s.
+pub(super) fn due(mut bay: Box<dyn Device>, ends: f64) -> Vec<f64> {
+    let mut due = Vec::new();
+    for span in [0.0, ends] {
+        if span > 0.0 {
+            bay.advance(span);
+        }
+        if let Role::Makes(source) = bay.role() {
+            due.extend(source.due.iter().map(|age| span - age));
+        }
+    }
+    due
+}
 
 /// A bay, as the belt that it feeds knows it.
 #[derive(Clone, Debug)]

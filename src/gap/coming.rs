@@ -86,20 +86,19 @@ fn stand_before_a_beam(beside: &Beside, way: &Way, script: &Script) -> Vec<f64> 
 fn put_unseen(beside: &Beside, way: &Way, script: &Script, mut put: Vec<f64>) -> Vec<f64> {
     /// How far from its instant a part is told to have been put, s.
     const OFF_S: f64 = 0.5;
-    let Some((fed, due)) = beside.fed.and_then(|fed| Some((fed, fed.due?))) else { return Vec::new() };
+    let Some(fed) = beside.fed else { return Vec::new() };
     let beam = script.beams.iter().flatten().copied().filter(|beam| *beam > fed.at).reduce(f64::min);
     let Some(metres) = beam.map(|beam| beam - fed.at - 0.5 * fed.length) else { return Vec::new() };
     let ends = way.instants.last().copied().unwrap_or(0.0);
     let is_near = |put: &[f64], at: f64| put.iter().any(|put| (put - at).abs() < OFF_S);
-    let dues: Vec<f64> = due.until(ends).collect();
-    if put.is_empty() || !put.iter().all(|at| is_near(&dues, *at)) {
+    if put.is_empty() || !put.iter().all(|at| is_near(&beside.due, *at)) {
         return Vec::new();
     }
     let gone = |from: f64, to: f64| way.at(to) - way.at(from);
     let mut unseen = Vec::new();
-    for at in dues {
+    for &at in &beside.due {
         let is_free = put.iter().all(|put| gone(*put, at).abs() >= fed.length);
-        let is_left = due.limit.is_none_or(|limit| put.len() < limit);
+        let is_left = fed.limit.is_none_or(|limit| put.len() < limit);
         if !is_near(&put, at) && is_free && is_left && gone(at, ends) < metres {
             put.push(at);
             unseen.push(at);
@@ -127,7 +126,7 @@ mod tests {
     use super::*;
     use crate::gap::TaskId;
     use crate::gap::lane::Lane;
-    use crate::gap::layout::{Due, Fed};
+    use crate::gap::layout::Fed;
 
     /// A belt that always runs at 0.5 m/s.
     fn way() -> Way {
@@ -152,7 +151,7 @@ mod tests {
     #[test]
     fn what_a_bay_put_weighs_beside_what_is_played_back() {
         let bay = TaskId { instance: 0, task: 0 };
-        let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, due: None });
+        let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, limit: None });
         let beam = |at: f64, is_on: bool| Told { at, what: Surrounding::BarrierB, is_on };
         let told = vec![beam(0.0, true), beam(1.5, false)];
         let script = Script { cuts: vec![seen_at(0.7)], told, ..Script::default() };
@@ -166,17 +165,16 @@ mod tests {
     #[test]
     fn what_a_bay_put_last_weighs_though_no_beam_sees_it_any_more() {
         let bay = TaskId { instance: 0, task: 0 };
-        let held = |first: f64, interval: f64, limit: Option<usize>| {
-            let due = Some(Due { first, interval, limit });
-            let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, due });
+        let held = |due: &[f64], limit: Option<usize>| {
+            let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, limit });
             let script = Script { cuts: vec![seen_at(0.7)], beams: [Some(0.7), None], ..Script::default() };
-            told_beside(&Beside { fed, ..Beside::default() }, &way(), script).told
+            told_beside(&Beside { fed, due: due.to_vec(), ..Beside::default() }, &way(), script).told
         };
-        assert_held(&held(1.3, 2.2, None), &[(1.3, 1), (2.0, 0), (3.5, 1)]);
-        assert_held(&held(1.3, 2.2, Some(1)), &[(1.3, 1), (2.0, 0)]);
-        assert_held(&held(0.5, 2.2, None), &[(1.3, 1), (2.0, 0)]);
+        assert_held(&held(&[1.3, 3.5], None), &[(1.3, 1), (2.0, 0), (3.5, 1)]);
+        assert_held(&held(&[1.3, 3.5], Some(1)), &[(1.3, 1), (2.0, 0)]);
+        assert_held(&held(&[0.5, 2.7], None), &[(1.3, 1), (2.0, 0)]);
         // At 1.88 s its place is taken, and what was put at 2.46 s would have been seen.
-        assert_held(&held(1.3, 0.58, None), &[(1.3, 1), (2.0, 0), (3.62, 1)]);
+        assert_held(&held(&[1.3, 1.88, 2.46, 3.04, 3.62], None), &[(1.3, 1), (2.0, 0), (3.62, 1)]);
     }
 
     /// One that stood 0.8 m before its beam until the belt had brought it there weighs from the start on; one that came from elsewhere does not.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::alone;
+use super::bay;
 use super::lane::{Beyond, End, Lane};
 use super::overrides::Overrides;
 use super::parts::middle;
@@ -10,8 +11,8 @@ use super::recording::TaskId;
 use super::subject::{Subject, beam_of};
 use super::track::Track;
 use super::way::Way;
-use crate::device::{Belt, Place, Plate, Role, Surface as DeviceSurface, Transfer};
-use crate::effect::EffectError;
+use crate::device::{Belt, Device, Place, Plate, Role, Surface as DeviceSurface, Transfer};
+use crate::effect::{self, EffectError};
 use crate::kinematics::{Along, DPose3, DVec2, DVec3, Shape, Surface, Upright};
 use crate::plant::{Instance, ParameterValue, Plant, Pose};
 
@@ -23,6 +24,8 @@ pub(super) struct Beside {
     pub hands: [Vec<(f64, f64)>; 2],
     /// The one bay that puts parts on it.
     pub fed: Option<Fed>,
+    /// When its parts are due, s; none where that is random.
+    pub due: Vec<f64>,
     /// Where the parts that stand on it at the start by the plant's word have their middles, m from its start.
     pub stand: Vec<f64>,
     /// How far it went by its own report, or, where it has none, by its commands.
@@ -51,28 +54,17 @@ pub(super) struct Fed {
     pub length: f64,
     /// Whether they lie along the belt.
     pub is_along: bool,
-    /// When they are due; `None` where that is random.
-    pub due: Option<Due>,
-}
-
-/// The instants at which a bay's parts are due, by its own parameters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Due {
-    /// The first, s.
-    pub first: f64,
-    /// From one to the next, s.
-    pub interval: f64,
-    /// How many parts there are at the most.
+    /// How many there are at the most.
     pub limit: Option<usize>,
 }
 
-impl Due {
-    /// Those up to an instant, s.
-    pub fn until(&self, end: f64) -> impl Iterator<Item = f64> + use<> {
-        let Due { first, interval, .. } = *self;
-        let instants = (0..).map(move |count| first + f64::from(count) * interval);
-        instants.take_while(move |at| interval > 0.0 && *at <= end)
-    }
+/// A bay that feeds a belt.
+struct Feeder {
+    /// The belt's instance.
+    belt: String,
+    fed: Fed,
+    /// What says when its parts are due; `None` where that is random.
+    bay: Option<Box<dyn Device>>,
 }
 
 /// The belts and plates of a plant, by their subjects.
@@ -81,8 +73,7 @@ pub(super) struct Layout {
     plates: Vec<(usize, DPose3, Plate, f64)>,
     /// Belts by their instances' names, and at which end a bay takes what comes.
     taken: Vec<(String, bool)>,
-    /// Belts by their instances' names, and how a bay feeds them.
-    fed: Vec<(String, Fed)>,
+    feeders: Vec<Feeder>,
     /// Belts by their instances' names, and where a part stands on them at the start.
     stand: Vec<(String, f64)>,
 }
@@ -101,7 +92,8 @@ impl Layout {
     /// That of a plant.
     pub fn new(plant: &Plant, subjects: &[Subject]) -> Result<Layout, EffectError> {
         let stand = plant.parts.iter().filter_map(|part| Some((part.on.clone()?, part.pose.x))).collect();
-        let mut layout = Layout { belts: Vec::new(), plates: Vec::new(), taken: bays(plant), fed: feeds(plant), stand };
+        let mut layout =
+            Layout { belts: Vec::new(), plates: Vec::new(), taken: bays(plant), feeders: feeders(plant)?, stand };
         for (at, subject) in subjects.iter().enumerate() {
             let device = subject.device(&[], &Overrides::none())?;
             let instance = subject.id.instance(plant);
@@ -133,6 +125,8 @@ impl Layout {
         for (at, standing) in &self.belts {
             for (run, beside) in beside[*at].iter_mut().enumerate() {
                 let end = |forwards| self.end(subjects, standing, forwards, run, is_trusted);
+                let feeder = self.feeder(standing);
+                let bay = feeder.and_then(|feeder| feeder.bay.as_ref());
                 let lane = Lane {
                     length: standing.surface.length(),
                     shares: standing.belt.transfer == Transfer::Share,
@@ -141,7 +135,8 @@ impl Layout {
                 *beside = Beside {
                     lane: Arc::new(lane),
                     hands: self.hands(subjects, standing, run),
-                    fed: self.fed(standing),
+                    fed: feeder.map(|feeder| feeder.fed),
+                    due: bay.map_or_else(Vec::new, |bay| bay::due(bay.boxed(), subjects[*at].runs[run].ends)),
                     stand: self.stand.iter().filter(|(on, _)| *on == standing.name).map(|(_, at)| *at).collect(),
                     way: way_of(&subjects[*at], run, 1.0)?,
                 };
@@ -219,12 +214,9 @@ impl Layout {
     }
 
     /// The bay that feeds a belt, if it is one alone.
-    fn fed(&self, standing: &Standing) -> Option<Fed> {
-        let mut here = self.fed.iter().filter(|(belt, _)| *belt == standing.name);
-        match (here.next(), here.next()) {
-            (Some((_, fed)), None) => Some(*fed),
-            _ => None,
-        }
+    fn feeder(&self, standing: &Standing) -> Option<&Feeder> {
+        let mut here = self.feeders.iter().filter(|feeder| feeder.belt == standing.name);
+        here.next().filter(|_| here.next().is_none())
     }
 
     /// When plates were out that reach over the beams of a belt, by beam.
@@ -284,26 +276,31 @@ fn bays(plant: &Plant) -> Vec<(String, bool)> {
     taken.collect()
 }
 
-/// The belts that bays put parts on, and how.
-fn feeds(plant: &Plant) -> Vec<(String, Fed)> {
+/// The bays that put parts on belts.
+fn feeders(plant: &Plant) -> Result<Vec<Feeder>, EffectError> {
     /// The cosine of how far a part that lies along a belt is turned at the most.
     const ALONG: f64 = 0.995;
     let of = |(instance, of): (usize, &Instance)| {
         (0..of.tasks.len()).map(move |task| TaskId { instance, task }).collect::<Vec<_>>()
     };
     let bays = plant.instances.iter().enumerate().flat_map(of);
-    let sources = bays.filter(|bay| bay.task(plant).kind.name == "kinetwin.LoadingBay");
-    let put = sources.filter_map(|bay| {
-        let parameters = &bay.task(plant).parameters;
-        let ParameterValue::Numbers(size) = &parameters.0.get("size")?.value else { return None };
-        let (at, length) = (parameters.number("at"), *size.first()?);
-        let is_along = parameters.number("turn").cos().abs() > ALONG;
-        let [first, interval, spread] = ["firstTime", "interval", "spread"].map(|name| parameters.number(name));
-        let limit = Some(parameters.integer("limit") as usize).filter(|limit| *limit > 0);
-        let due = (spread == 0.0).then_some(Due { first, interval, limit });
-        Some((parameters.text("belt").to_owned(), Fed { bay, at, length, is_along, due }))
-    });
-    put.collect()
+    let mut feeders = Vec::new();
+    for bay in bays.filter(|bay| bay.task(plant).kind.name == "kinetwin.LoadingBay") {
+        let (instance, task) = (bay.instance(plant), bay.task(plant));
+        let tasks: Vec<&str> = instance.tasks.iter().map(|task| task.name.as_str()).collect();
+        let effects = effect::of_task(&instance.effects, &task.name, &tasks);
+        let device = effect::build(task.kind, &task.parameters, &instance.name, &effects, 0)?;
+        let Role::Makes(source) = device.role() else { continue };
+        let size = task.parameters.0.get("size").map(|size| &size.value);
+        let Some(ParameterValue::Numbers(size)) = size else { continue };
+        let is_along = source.turn.cos().abs() > ALONG;
+        let limit = source.limit.map(|limit| limit as usize);
+        let fed = Fed { bay, at: source.at[0], length: size[0], is_along, limit };
+        let is_regular = task.parameters.number("spread") == 0.0;
+        let belt = task.parameters.text("belt").to_owned();
+        feeders.push(Feeder { belt, fed, bay: is_regular.then_some(device) });
+    }
+    Ok(feeders)
 }
 
 fn shape(surface: &DeviceSurface) -> Shape {

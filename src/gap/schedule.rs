@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::alone;
-use super::bay::Bay;
+use super::bay::{self, Bay};
 use super::cause::Bare;
 use super::locate::{THRESHOLD, evidence};
 use super::prediction::{Passing, Predicted, PredictedEdge};
@@ -55,22 +55,16 @@ struct Put {
 
 impl Course {
     /// The rising edges of the beam, of the parts that a bay puts.
-    pub fn rises(&self, mut bay: Box<dyn Device>, track: &Track) -> Predicted {
+    pub fn rises(&self, bay: Box<dyn Device>, track: &Track) -> Predicted {
         let ends = self.way.instants.last().copied().unwrap_or(0.0);
-        let mut due = Vec::new();
-        let (mut at, mut length, mut limit) = (0.0, 0.0, usize::MAX);
-        for span in [0.0, ends] {
-            if span > 0.0 {
-                bay.advance(span);
+        let (at, length, limit) = match bay.role() {
+            Role::Makes(source) => {
+                (source.at[0], source.size[0], source.limit.map_or(usize::MAX, |limit| limit as usize))
             }
-            if let Role::Makes(source) = bay.role() {
-                due.extend(source.due.iter().map(|age| span - age));
-                (at, length) = (source.at[0], source.size[0]);
-                limit = source.limit.map_or(usize::MAX, |limit| limit as usize);
-            }
-        }
+            _ => (0.0, 0.0, 0),
+        };
         let mut puts: Vec<Put> = Vec::new();
-        for from in due {
+        for from in bay::due(bay, ends) {
             let ahead = at - self.way.at(from);
             // Its place is free if no part is within a length of it.
             let is_free = |put: &Put| put.to <= from || (put.ahead - ahead).abs() >= length;

@@ -18,13 +18,13 @@ impl Way {
         instants.extend(reported.first());
         metres.extend(reported.first().map(|_| way));
         for (at, speed) in reported.windows(2).zip(speeds.windows(2)) {
-            let held = at[1] - at[0] - cycle;
-            if held > 0.5 * cycle {
-                way += speed[0] * held;
-                instants.push(at[0] + held);
+            let mut rest = at[1] - at[0];
+            if rest > 1.5 * cycle {
+                way += speed[0] * (rest - cycle);
+                rest = cycle;
+                instants.push(at[1] - cycle);
                 metres.push(way);
             }
-            let rest = if held > 0.5 * cycle { cycle } else { at[1] - at[0] };
             way += 0.5 * (speed[0] + speed[1]) * rest;
             instants.push(at[1]);
             metres.push(way);
