@@ -48,6 +48,8 @@ pub struct Servo {
     lag: Option<f64>,
     pull: f64,
     friction: Friction,
+    /// What share of what is asked for arrived in the last step.
+    arrives: f64,
     /// What friction opposed with in the last step: without it the first guess of a speed would creep at rest.
     rubbed: f64,
     drag: f64,
@@ -95,6 +97,7 @@ impl Servo {
             lag: all.value("first-order-lag", "time_constant"),
             pull: all.value("constant-force", "force").unwrap_or(0.0) + all.value("gravity", "force").unwrap_or(0.0),
             friction: Friction::new(all),
+            arrives: 1.0,
             rubbed: 0.0,
             drag: all.value("x-drags-with-the-square", "coefficient").unwrap_or(0.0),
             cogging: pair("x-cogs", "force", "period"),
@@ -113,7 +116,7 @@ impl Servo {
         }
     }
 
-    /// What the drive is to exert, by its cascade: what it reports.
+    /// What the drive is to exert, by its cascade.
     fn asked(&self) -> f64 {
         let error = self.target - self.position;
         let error = if error.abs() <= 0.5 * self.dead_band { 0.0 } else { error };
@@ -144,7 +147,11 @@ impl Servo {
             }
             None => asked,
         };
-        let rubs = self.friction.step(h, guess, self.position, self.exerted(asked, others), &mut self.heat);
+        let exerted = self.exerted(asked, others);
+        if asked * exerted > 0.0 {
+            self.arrives = exerted / asked;
+        }
+        let rubs = self.friction.step(h, guess, self.position, exerted, &mut self.heat);
         self.rubbed = rubs;
         let a = self.acceleration(asked, guess, others, rubs);
         let (old, new) = (self.speed, self.speed + h * a);
@@ -164,16 +171,35 @@ impl Servo {
         }
     }
 
-    fn acceleration(&self, asked: f64, speed: f64, others: usize, rubs: f64) -> f64 {
+    /// The mass at the motor, and what opposes it at this speed with this friction.
+    fn opposed(&self, speed: f64, rubs: f64) -> (f64, f64) {
         let cogs = self.cogging.map_or(0.0, |(force, period)| force * (TAU * self.position / period).sin());
         let drag = self.viscous * speed + self.drag * speed * speed.abs() + cogs;
-        let mut force = self.exerted(asked, others) - drag - rubs - self.pull;
-        let mut mass = self.mass;
-        if let Some((stiffness, damping)) = self.spring {
-            mass *= 0.5;
-            force -= stiffness * (self.position - self.far.0) + damping * (speed - self.far.1);
+        let opposes = drag + rubs + self.pull;
+        match self.spring {
+            Some((stiffness, damping)) => {
+                let bent = stiffness * (self.position - self.far.0) + damping * (speed - self.far.1);
+                (0.5 * self.mass, opposes + bent)
+            }
+            None => (self.mass, opposes),
         }
-        (force / mass).clamp(-self.slew, self.slew)
+    }
+
+    fn acceleration(&self, asked: f64, speed: f64, others: usize, rubs: f64) -> f64 {
+        let (mass, opposes) = self.opposed(speed, rubs);
+        ((self.exerted(asked, others) - opposes) / mass).clamp(-self.slew, self.slew)
+    }
+
+    /// What the drive reports that it exerts: what its cascade asks for, after its limits. A drive that accelerates no more steeply than it
+    /// may asks its motor for no more than that takes.
+    fn reported(&self) -> f64 {
+        let asked = self.asked();
+        if self.slew.is_infinite() {
+            return asked;
+        }
+        let (mass, opposes) = self.opposed(self.speed, self.rubbed);
+        let [least, most] = [-1.0, 1.0].map(|way| (opposes + way * mass * self.slew) / self.arrives);
+        asked.clamp(least, most)
     }
 }
 
@@ -196,7 +222,7 @@ impl Device for Servo {
 
     fn read(&self, _now: f64, values: &mut Vec<f64>) {
         let position = if self.spring.is_some() { self.far.0 } else { self.train.load() };
-        values.extend([position, self.speed, self.asked()]);
+        values.extend([position, self.speed, self.reported()]);
     }
 
     fn moving(&self) -> usize {
@@ -366,6 +392,17 @@ mod tests {
         servo.read(2.0, &mut values);
         // 10 N and 50 N·s/m at 0.1 m/s.
         assert!((values[2] - 15.0).abs() < 0.1, "{}", values[2]);
+    }
+
+    /// 20 kg at 2 m/s² and 50 N·s/m at 0.2 m/s, of the 500 N that the cascade would ask for: with a motor of 0.8 of its force, 62.5 N of them.
+    #[test]
+    fn a_limited_drive_asks_for_what_it_takes() {
+        for (gain, takes) in [(1.0, 50.0), (0.8, 62.5)] {
+            let limited =
+                [quirk("A", "acceleration-limit", &[("limit", 2.0)]), quirk("A", "gain-error", &[("gain", gain)])];
+            let [_, v, force] = after(&limited, 1.0, 0.1);
+            assert!((v - 0.2).abs() < 1e-9 && (force - takes).abs() < 0.05, "{v} {force}");
+        }
     }
 
     /// However fast it is pulled, by 40 N in a second or by 400.
