@@ -42,22 +42,13 @@ fn first_of(track: &Track, grid: Arc<Grid>) -> Track {
 
 #[cfg(test)]
 mod tests {
-    use std::fs::File;
-    use std::io::BufReader;
-
-    use crate::device::KINDS;
-    use crate::gap::{Overrides, Predicted, Recording, Study};
-    use crate::plant::{self, embedded::Embedded};
-    use crate::trace::Reader;
+    use crate::gap::recorded::{RUBBING_AXIS, study};
+    use crate::gap::{Overrides, Predicted};
 
     /// Every device of a recorded rig does in its first third what it does in the first third of all.
     #[test]
     fn what_a_device_does_at_first_it_does_without_the_rest() {
-        let path = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
-        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
-        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
-        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
-        let study = Study::new(&plant, &[recording]).expect("a study");
+        let study = study(RUBBING_AXIS);
         let (mut levels, mut edges_seen) = (0, 0);
         for whole in &study.subjects {
             let early = whole.early(1.0 / 3.0);

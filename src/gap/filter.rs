@@ -28,6 +28,8 @@ const STRAY: f64 = 9.0;
 const TRIED_S: [f64; 5] = [3e-4, 6e-4, 1e-3, 2e-3, 4e-3];
 const NEAR_THE_KNOWN: [f64; 6] = [0.55, 0.75, 0.9, 1.1, 1.33, 1.8];
 const SHARES: [[f64; 2]; 3] = [[0.85, 1.18], [0.95, 1.05], [0.98, 1.02]];
+/// How many such steps it is gone on at most.
+const FURTHEST: usize = 4;
 /// By how much no device may be further off under such a filter, in deviance, and by which share of what all gain more: it is all
 /// devices' or none's.
 const NOT_FURTHER: f64 = 1.0;
@@ -84,6 +86,29 @@ struct Tried {
     bare: Vec<Bare>,
 }
 
+impl Tried {
+    /// That of the two which costs less.
+    fn or(self, other: Tried) -> Tried {
+        if other.cost < self.cost { other } else { self }
+    }
+}
+
+/// The best of what is tried about `first`, nearer and nearer to it, and on as far as that leads: of two filters of which the one is twice the
+/// other, the shorter may be too short for one device and the longer too long for another.
+fn nearest(first: Tried, under: impl Fn(f64) -> Tried) -> Tried {
+    let mut best = first;
+    for shares in SHARES {
+        for _ in 0..FURTHEST {
+            let about = best.filter_s;
+            best = shares.into_iter().map(|share| under(share * about)).fold(best, Tried::or);
+            if best.filter_s == about {
+                break;
+            }
+        }
+    }
+    best
+}
+
 /// Tries filters with nominal parameters fitted beside each, in all runs, and sets the one that explains more than chance does: in
 /// `subjects`, and what they are under it in `bare`. What it is; `None` where there is none. Where one is `known`, 0 if none is, it is
 /// one of the delays between two looks that do equally well with the nominal parameters as they were: filters about it are tried too.
@@ -128,19 +153,15 @@ pub(super) fn find_beside_parameters(
         Tried { filter_s, cost, bare }
     };
     let under = |filter_s: f64| fitted_under(filter_s, false);
-    let nearer = |a: Tried, b: Tried| if b.cost < a.cost { b } else { a };
     let near = NEAR_THE_KNOWN.map(|share| share * known_s).into_iter().filter(|filter_s| *filter_s > 0.0);
-    let mut best = near.chain(TRIED_S).map(under).reduce(nearer)?;
-    for shares in SHARES {
-        let about = best.filter_s;
-        best = shares.into_iter().map(|share| under(share * about)).fold(best, nearer);
-    }
+    let mut best = near.chain(TRIED_S).map(under).reduce(Tried::or)?;
+    best = nearest(best, under);
     if total(&before) - best.cost <= THRESHOLD {
         return None;
     }
     if have_levels.contains(&true) {
         let fitted = fitted_under(best.filter_s, true);
-        best = nearer(best, fitted);
+        best = best.or(fitted);
     }
     // Where only one device has flags, nobody can say whether a filter is its own or all inputs': every machine has one, so that it
     // is no gap where nothing else is left.
@@ -189,28 +210,26 @@ fn set(subject: &mut Subject, filter_s: f64) {
 
 #[cfg(test)]
 mod tests {
-    use std::fs::File;
-    use std::io::BufReader;
-
     use super::*;
-    use crate::device::KINDS;
+    use crate::gap::recorded::{SLOW_PUSHER, study};
     use crate::gap::score::SignalScore;
-    use crate::gap::{Overrides, Recording, Study};
-    use crate::plant::{self, embedded::Embedded};
-    use crate::trace::Reader;
+    use crate::gap::{Overrides, Study};
 
-    fn study() -> Study {
-        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
-        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
-        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
-        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
-        Study::new(&plant, &[recording]).expect("a study")
+    /// Begun at 0.3 ms, where 0.6 ms may not be: 0.5 ms.
+    #[test]
+    fn a_filter_is_looked_for_as_far_as_that_leads() {
+        let under = |filter_s: f64| {
+            let cost = if filter_s > 5.6e-4 { f64::INFINITY } else { (filter_s / 1e-4 - 5.0).abs() };
+            Tried { filter_s, cost, bare: Vec::new() }
+        };
+        let found = nearest(under(3e-4), under).filter_s;
+        assert!((found / 5e-4 - 1.0).abs() < 0.02, "{found}");
     }
 
     /// A motor that is faster is so under any filter.
     #[test]
     fn a_device_whose_levels_are_off_has_no_say() {
-        let mut study = study();
+        let mut study = study(SLOW_PUSHER);
         let named = |study: &Study| -> Vec<String> {
             with_a_say(&study.subjects, &study.bare).iter().map(|at| study.subjects[*at].name.clone()).collect()
         };
@@ -243,7 +262,7 @@ mod tests {
     /// edges asked for with the nominal speeds may be less than half of what it is.
     #[test]
     fn a_filter_is_found_with_the_speeds_that_it_hides_whatever_was_known_of_it() {
-        let study = study();
+        let study = study(SLOW_PUSHER);
         for known in [0.0, 1.5e-4] {
             let mut subjects = study.subjects.clone();
             subjects.iter_mut().for_each(|subject| set(subject, known));

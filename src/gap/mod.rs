@@ -51,6 +51,8 @@ mod parts;
 pub mod plan;
 mod prediction;
 pub mod production;
+#[cfg(test)]
+mod recorded;
 mod recording;
 mod regimes;
 pub mod report;

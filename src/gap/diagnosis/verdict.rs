@@ -280,24 +280,16 @@ impl Site<'_> {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
-    use std::fs::File;
-    use std::io::BufReader;
 
     use super::*;
-    use crate::device::KINDS;
     use crate::effect::EFFECTS;
-    use crate::gap::Recording;
-    use crate::plant::{self, EffectPlace, embedded::Embedded};
-    use crate::trace::Reader;
+    use crate::gap::recorded::{SLOW_PUSHER, rig, study};
+    use crate::plant::EffectPlace;
 
     /// An axis of a robot that turns and a motor are limited in radians, the robot's other axes and a servo axis along a line in metres.
     #[test]
     fn what_turns_is_told_in_radians() {
-        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
-        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
-        let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
-        let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
-        let study = Study::new(&plant, &[recording]).expect("a study");
+        let (plant, study) = (rig(), study(SLOW_PUSHER));
         let unit = |device: &str, component: Option<&str>, effect: &str| {
             let effect = EFFECTS.iter().find(|known| known.id == effect).expect("an effect");
             let candidate = Candidate {

@@ -1,0 +1,27 @@
+//! Recordings as the tests of this module read them.
+
+use std::fs::File;
+use std::io::BufReader;
+
+use super::{Recording, Study};
+use crate::device::KINDS;
+use crate::plant::{self, Plant, embedded::Embedded};
+use crate::trace::Reader;
+
+/// A pusher that is a per cent slow beside a motor and a gripper that are as they should be.
+pub const SLOW_PUSHER: &str = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
+/// An axis that rubs a little.
+pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
+
+/// The rig that was recorded.
+pub fn rig() -> Plant {
+    plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig")
+}
+
+/// What a recording of it says of its devices.
+pub fn study(path: &str) -> Study {
+    let plant = rig();
+    let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
+    let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
+    Study::new(&plant, &[recording]).expect("a study")
+}
