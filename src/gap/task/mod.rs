@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::locate::THRESHOLD;
 use super::subject::Subject;
 use crate::effect::EffectError;
-use voter::{Moments, Voter, age_of_most, likeliest_age};
+use voter::{Moments, Voter, age_of_most, age_of_near, likeliest_age};
 pub(super) use ways::{Ways, find as find_ways};
 
 /// How old a report may be, s.
@@ -79,9 +79,22 @@ impl Task {
 /// The likeliest task is found, each device's scale of error being its own: n·ln(squares), n the samples that move, each
 /// as much as its noise lets it tell. So a device with a gap of its own, whose squares are large whatever the task, has a small say.
 pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Task>, EffectError> {
-    let mut voters = voters(subjects, run)?;
+    let (found, near) = agreed(voters(subjects, run)?, (subjects, run), cycle)?;
+    // What is far off whatever the task may have outvoted what is not.
+    match found.is_none() && !near.is_empty() {
+        true => Ok(agreed(near, (subjects, run), cycle)?.0),
+        false => Ok(found),
+    }
+}
+
+/// What these devices agree on, and those of their levels that are near what is recorded under what is likeliest; none of these where all are.
+fn agreed(
+    mut voters: Vec<Voter>,
+    (subjects, run): (&[Subject], usize),
+    cycle: f64,
+) -> Result<(Option<Task>, Vec<Voter>), EffectError> {
     if voters.is_empty() {
-        return Ok(None);
+        return Ok((None, Vec::new()));
     }
     voters.par_iter_mut().try_for_each(|voter| voter.centre(Task::default()))?;
     let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
@@ -104,15 +117,22 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
         Ok(whole.collect::<Result<Vec<bool>, _>>()?.contains(&true))
     };
     // Where nothing else was at work, it is that device that was looked at.
-    let is_at_work =
-        |subject: &&Subject| subject.runs[run].tracks.iter().flatten().any(|track| !track.edges.is_empty());
+    let is_at_work = |subject: &&Subject| {
+        let changes = subject.runs[run].tracks.iter().flatten().any(|track| !track.edges.is_empty());
+        changes || voters.iter().any(|voter| voter.subject.id == subject.id)
+    };
     let are_others = || subjects.iter().filter(is_at_work).count() >= LEAST_DEVICES;
     let is_common = nearer >= LEAST_DEVICES || nearer == 1 && are_others() && is_explained()?;
     if !is_common || gain <= THRESHOLD {
-        return Ok(None);
+        let near = voters.iter().map(|voter| voter.near(best.task)).collect::<Result<Vec<_>, _>>()?;
+        let near: Vec<Voter> = near.into_iter().flatten().collect();
+        let levels = |voters: &[Voter]| voters.iter().map(|voter| voter.kept.len()).sum::<usize>();
+        let are_some = levels(&near) < levels(&voters);
+        return Ok((None, if are_some { near } else { Vec::new() }));
     }
-    let age_s = age_of_most(&Best::moments(&voters, best.task)?, best.task.age_s);
-    Ok(Some(Task { age_s, ..best.task }))
+    let moments = Best::moments(&voters, best.task)?;
+    let age_s = age_of_most(&moments, age_of_near(&moments, best.task.age_s));
+    Ok((Some(Task { age_s, ..best.task }), Vec::new()))
 }
 
 /// `known` with its phase as this run has it, which began at another instant: the likeliest as in [`find`].
@@ -324,11 +344,7 @@ mod tests {
     /// States that nobody looks at change no level.
     #[test]
     fn levels_are_what_they_are_whether_states_are_looked_at_or_not() {
-        let path = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
-        let plant = plant::load(&Embedded, "models/rig-toleranced", KINDS).expect("the rig");
-        let file = std::io::BufReader::new(std::fs::File::open(path).expect("the recording"));
-        let recording = Recording::read(&plant, path, Reader::new(path, file).expect("a trace"), &[]);
-        let study = Study::new(&plant, &[recording.expect("a recording")]).expect("a study");
+        let study = crate::gap::recorded::study(crate::gap::recorded::SLOW_PUSHER);
         let mut compared = 0;
         for subject in &study.subjects {
             let all = subject.predict(&[], &Overrides::none()).expect("a prediction");

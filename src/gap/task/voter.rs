@@ -27,6 +27,8 @@ const SURELY_NEARER: f64 = 10.83;
 /// What is so many times further off than the greatest age could move it, such as metres that are told as millimetres, has no say where
 /// anything else of the device has.
 const FAR_OFF: f64 = 30.0;
+/// Beyond this mean square in floors a level is not near what is recorded.
+const NEAR: f64 = 4.0;
 /// Steps of the age, s, and into how many the best one's neighbourhood is divided.
 const STEP_S: f64 = 2e-5;
 const FINER: i32 = 10;
@@ -195,7 +197,7 @@ impl Voter {
         Ok(self.rest(&self.subject.predict(&[], &self.overrides())?))
     }
 
-    /// The mean square that [`Moments::cost`] came from.
+    /// The mean square that [`Moments::cost`] came from, the geometric mean of its levels.
     pub fn mean_square_at(&self, cost: f64) -> f64 {
         if self.count > 0.0 { (cost / self.count).exp() - LEAST_SQUARE } else { f64::INFINITY }
     }
@@ -221,20 +223,42 @@ impl Voter {
         Ok((0..before.len()).any(is_explained))
     }
 
+    /// The same device with those levels alone that are near what is recorded under a task; `None` where none is.
+    pub fn near(&self, task: Task) -> Result<Option<Voter>, EffectError> {
+        let near = self.moments(Some(task))?.near(task.age_s);
+        let is_near = |(place, _): &(usize, usize)| near.signals.iter().any(|of| of.place == *place);
+        let kept: Vec<(usize, usize)> = self.kept.iter().copied().filter(is_near).collect();
+        let count = near.signals.iter().map(|of| of.count).sum();
+        Ok((!kept.is_empty()).then(|| Voter { kept, count, ..self.clone() }))
+    }
+
     /// What is left under a task, or as the run has it.
     pub fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
         let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
         let (rest, slopes) = (self.rest(&under.predict(&[], &self.overrides())?), &self.slopes);
         // What the nominal parameters can take of them within their tolerances is taken off.
-        let by_rest = self.columns.transpose() * &rest - &self.strain;
-        let by_slopes = self.columns.transpose() * slopes;
-        let (taken, taken_slopes) = (self.known.solve(&by_rest), self.known.solve(&by_slopes));
-        Ok(Moments {
-            squares: rest.norm_squared() + self.strain.norm_squared() - by_rest.dot(&taken),
-            slopes: slopes.norm_squared() - by_slopes.dot(&taken_slopes),
-            products: rest.dot(slopes) - by_rest.dot(&taken_slopes),
-            count: self.count,
-        })
+        let taken = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+        let taken_slopes = self.known.solve(&(self.columns.transpose() * slopes));
+        let (rest, slopes) = (rest - &self.columns * &taken, slopes - &self.columns * &taken_slopes);
+        let of = |place: usize| Sums { place, ..Sums::default() };
+        let mut signals: Vec<Sums> = (0..self.subject.signals.len()).map(of).collect();
+        for ((place, _), (rest, slope)) in self.kept.iter().zip(rest.iter().zip(slopes.iter())) {
+            let of = &mut signals[*place];
+            of.squares += rest * rest;
+            of.slopes += slope * slope;
+            of.products += rest * slope;
+            of.count += self.subject.runs[0].floors[*place].share();
+        }
+        signals.retain(|of| of.count > 0.0);
+        // What they are strained by for that.
+        let (strain, by_age) = (&self.strain + &taken, taken_slopes);
+        let strained = Sums {
+            squares: strain.norm_squared(),
+            slopes: by_age.norm_squared(),
+            products: strain.dot(&by_age),
+            ..Sums::default()
+        };
+        Ok(Moments { signals, strained })
     }
 }
 
@@ -244,24 +268,49 @@ fn slope(track: &Track, predicted: &[f64], k: usize) -> f64 {
     (predicted[k + 1] - predicted[k - 1]) / (instants[k + 1] - instants[k - 1]).max(1e-9)
 }
 
-/// Of all levels of a device: squares of what is left, of the slopes, and their products, in units of the floors.
-pub(super) struct Moments {
+/// Of a level: squares of what is left, of the slopes, and their products, in units of its floors, and how many samples they are.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    /// Which of the signals it is.
+    place: usize,
     squares: f64,
     slopes: f64,
     products: f64,
     count: f64,
 }
 
+impl Sums {
+    /// The squares of what is left of reports that are so old.
+    fn at(&self, age: f64) -> f64 {
+        (self.squares + 2.0 * age * self.products + age * age * self.slopes).max(0.0)
+    }
+}
+
+/// What is left of each level of a device, and how far its nominal parameters are strained for that. Each level has a scale of its own: one axis
+/// of a robot may be far off, and its others know how old reports are.
+pub(super) struct Moments {
+    signals: Vec<Sums>,
+    strained: Sums,
+}
+
 impl Moments {
-    /// The mean square of what is left of reports that are so old.
-    pub fn mean_square(&self, age: f64) -> f64 {
-        let sum = self.squares + 2.0 * age * self.products + age * age * self.slopes;
-        if self.count > 0.0 { sum.max(0.0) / self.count } else { 0.0 }
+    /// Those of its levels that are near what is recorded where reports are so old.
+    fn near(&self, age: f64) -> Moments {
+        let is_near = |of: &&Sums| of.at(age) < NEAR * of.count;
+        Moments { signals: self.signals.iter().filter(is_near).copied().collect(), ..*self }
     }
 
-    /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, with a scale of its own.
+    /// The mean square of what is left of reports that are so old.
+    pub fn mean_square(&self, age: f64) -> f64 {
+        let count: f64 = self.signals.iter().map(|of| of.count).sum();
+        let sum: f64 = self.signals.iter().map(|of| of.at(age)).sum();
+        if count > 0.0 { (sum + self.strained.at(age)) / count } else { 0.0 }
+    }
+
+    /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, with scales of their own.
     pub fn cost(&self, age: f64) -> f64 {
-        self.count * (LEAST_SQUARE + self.mean_square(age)).ln()
+        let of = |of: &Sums| of.count * (LEAST_SQUARE + of.at(age) / of.count).ln();
+        self.signals.iter().map(of).sum::<f64>() + self.strained.at(age)
     }
 }
 
@@ -284,6 +333,16 @@ pub(super) fn age_of_most(each: &[Moments], found: f64) -> f64 {
     most.1
 }
 
+/// The age at which those levels cost least together that are near what is recorded at `found`, s; `found` where all are or none is. What is far
+/// off at every age, as an axis that carries half as much again is, has its own reasons for the one that it likes.
+pub(super) fn age_of_near(each: &[Moments], found: f64) -> f64 {
+    let near: Vec<Moments> = each.iter().map(|moments| moments.near(found)).collect();
+    let near: Vec<&Moments> = near.iter().filter(|moments| !moments.signals.is_empty()).collect();
+    let count = |each: &[&Moments]| each.iter().map(|moments| moments.signals.len()).sum::<usize>();
+    let is_all = count(&near) == count(&each.iter().collect::<Vec<_>>());
+    if near.is_empty() || is_all { found } else { likeliest_age(&near).1 }
+}
+
 /// What devices cost together at the age at which they cost least, and that age, s.
 pub(super) fn likeliest_age(each: &[&Moments]) -> (f64, f64) {
     let total = |age_s: f64| each.iter().map(|moments| moments.cost(age_s)).sum::<f64>();
@@ -299,9 +358,14 @@ pub(super) fn likeliest_age(each: &[&Moments]) -> (f64, f64) {
 mod tests {
     use super::*;
 
+    fn only(level: Sums) -> Moments {
+        Moments { signals: vec![level], strained: Sums::default() }
+    }
+
     #[test]
     fn an_age_shows_in_what_moves() {
-        let moments = Moments { squares: 100.0 * 4.0, slopes: 100.0 * 4e6, products: -100.0 * 4e3, count: 100.0 };
+        let moments =
+            only(Sums { squares: 100.0 * 4.0, slopes: 100.0 * 4e6, products: -100.0 * 4e3, count: 100.0, place: 0 });
         // Off by twice the floor at 2000 floors a second: 1 ms.
         assert!(moments.mean_square(1e-3) < 1e-9 && moments.mean_square(0.0) == 4.0);
     }
@@ -309,7 +373,7 @@ mod tests {
     /// Of reports that are as old as `age_s`, of a device that knows an instant to a few of `exact_s`.
     fn speaking_for(age_s: f64, exact_s: f64) -> Moments {
         let (count, slopes) = (1000.0, 1.0 / (exact_s * exact_s));
-        Moments { squares: count + age_s * age_s * slopes, slopes, products: -age_s * slopes, count }
+        only(Sums { squares: count + age_s * age_s * slopes, slopes, products: -age_s * slopes, count, place: 0 })
     }
 
     /// A motor that is 60 µs late knows that a hundred times better than a robot and an axis know that they are not.
@@ -323,5 +387,17 @@ mod tests {
         // Of two nobody knows which is late.
         let two = [(6e-5, 1e-7), (0.0, 8e-6)].map(|(age, exact)| speaking_for(age, exact));
         assert_eq!(age_of_most(&two, found), found);
+    }
+    /// An axis knows that reports are 0.4 ms old; another, twenty floors off whatever their age, costs least where they are not.
+    #[test]
+    fn what_is_far_off_does_not_say_how_old_reports_are() {
+        let axis = speaking_for(4e-4, 8e-5);
+        let carrying = only(Sums { squares: 400.0 * 3000.0, slopes: 3e12, products: 3e8, count: 3000.0, place: 0 });
+        let (_, found) = likeliest_age(&[&axis, &carrying]);
+        assert!(found < 3e-4, "{found}");
+        let age = age_of_near(&[axis, carrying], found);
+        assert!((age - 4e-4).abs() < 1e-5, "{age}");
+        // Of several that are all near, or all far off, what they say together stands.
+        assert_eq!(age_of_near(&[speaking_for(4e-4, 8e-5), speaking_for(2e-4, 8e-5)], 3e-4), 3e-4);
     }
 }
