@@ -100,15 +100,18 @@ impl Steps {
         if seen < AS_NEAR * (-0.5 * spread * spread).exp() {
             return None;
         }
-        Some(Steps::fitted(moving, &read, rate, own))
+        Steps::fitted(moving, &read, rate, own)
     }
 
     /// The step about whose multiples readings gather the most, from a rate in steps per unit that is nearly its own: where the sum of
     /// cos 2πyf has no slope, with the variance of such an estimate (P. J. Huber, Robust Statistics, Wiley 1981, section 6.4). Readings
-    /// of one multiple are rounded alike, so that all of them tell as much as one.
-    fn fitted(moving: &[(f64, f64)], read: &[f64], mut rate: f64, own: f64) -> Steps {
+    /// of one multiple are rounded alike, so that all of them tell as much as one. `None` where the sum rises to no such rate nearby, or
+    /// readings are of less than three multiples: what is off by one number lies between two of some step, too.
+    fn fitted(moving: &[(f64, f64)], read: &[f64], first: f64, own: f64) -> Option<Steps> {
         const ITERATIONS: usize = 6;
-        let mut deviation = 0.0;
+        const FEWEST: usize = 3;
+        let (mut rate, mut deviation) = (first, 0.0);
+        let furthest = read.iter().map(|y| y.abs()).fold(0.0, f64::max);
         for _ in 0..ITERATIONS {
             let mut slopes: Vec<(f64, f64)> =
                 read.iter().map(|y| ((y * rate).round(), TAU * y * (TAU * y * rate).sin())).collect();
@@ -117,6 +120,10 @@ impl Steps {
             let of_one = |same: &[(f64, f64)]| same.iter().map(|of| of.1).sum::<f64>();
             let each: Vec<f64> = slopes.chunk_by(|a, b| a.0 == b.0).map(of_one).collect();
             rate -= each.iter().sum::<f64>() / bend;
+            // Within the summit that was found: it is as wide as the rate at which the furthest reading is a step further.
+            if each.len() < FEWEST || !((rate - first).abs() * furthest < 0.5) {
+                return None;
+            }
             deviation = each.iter().map(|slope| slope * slope).sum::<f64>().sqrt() / bend.abs();
         }
         let step = 1.0 / rate;
@@ -125,7 +132,7 @@ impl Steps {
         // No better than the rounding of the furthest reading lets it be.
         let furthest = moving.iter().map(|(y, _)| (y * rate).abs()).fold(1.0, f64::max);
         let least = own / (12.0_f64.sqrt() * furthest * (furthest / 3.0).sqrt().max(1.0));
-        Steps { step, deviation: (deviation * step * step).max(least), own, noise }
+        Some(Steps { step, deviation: (deviation * step * step).max(least), own, noise })
     }
 
     /// What is known of the step, with 95 %.
@@ -328,6 +335,20 @@ mod tests {
     fn what_sticks_while_it_should_move_shows_no_steps() {
         let stick = |x: f64| if (10.0 * x).rem_euclid(2.0) < 0.7 { 0.1 * (10.0 * x).floor() } else { x };
         assert_eq!(found(&sweep(0.8, |x, k| rounded(stick(x) + 1e-4 * noise(k), 1e-4)), 1e-4), None);
+    }
+
+    /// A belt's speeds, each reached by a ramp, all of them told 0.108 m/s too low.
+    #[test]
+    fn what_is_off_by_one_number_shows_no_steps() {
+        let mut pairs = Vec::new();
+        let mut speed = 0.0;
+        for goal in [0.3, 0.5, 0.2, 0.5, 0.0, 0.4, 0.5, 0.0, 0.25, 0.5].repeat(3) {
+            for _ in 0..80 {
+                speed += f64::clamp(goal - speed, -0.02, 0.02);
+                pairs.push((rounded(speed - 0.108 + 1e-3 * noise(pairs.len()), 1e-3), speed));
+            }
+        }
+        assert_eq!(found(&pairs, 1e-3), None);
     }
 
     /// Noise of a fifth of a step: where a reading lies about its step is not sure, and the interval says so.
