@@ -118,6 +118,13 @@ pub fn evidence(subject: &Subject, prediction: &Prediction) -> f64 {
     signals(subject, prediction, &score).iter().map(|signal| signal.evidence).fold(0.0, f64::max)
 }
 
+/// That of one of its signals.
+pub(super) fn evidence_of(place: usize, subject: &Subject, prediction: &Prediction) -> f64 {
+    let score = subject.score(prediction);
+    let of = |signal: &LocatedSignal| signal.name == subject.signals[place].name;
+    signals(subject, prediction, &score).into_iter().find(of).map_or(0.0, |signal| signal.evidence)
+}
+
 /// Whether a level is off that a device reports.
 pub(super) fn are_levels_off(subject: &Subject, prediction: &Prediction) -> bool {
     let score = subject.score(prediction);

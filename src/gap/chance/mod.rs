@@ -17,7 +17,7 @@ use super::cause::{Bare, Bounds, Candidate, Free, misfit};
 use super::evidence;
 use super::fit::Range;
 use super::floor::Floor;
-use super::locate::THRESHOLD;
+use super::locate::{THRESHOLD, evidence_of};
 use super::overrides::Overrides;
 use super::prediction::Prediction;
 use super::study::Study;
@@ -121,15 +121,16 @@ pub fn find(
         return None;
     }
     let before = evidence(subject, &bare.prediction);
-    let by_reading =
-        || [Law::Away, Law::Lost].into_iter().find_map(|law| taken_out(subject, bare, before, law, is_asked));
     let has_gap = before > THRESHOLD;
+    // What reads 0 while it should be far from that is no noise, however little of it there is.
+    let laws: &[Law] = if has_gap { &[Law::Away, Law::Lost] } else { &[Law::Away] };
+    let by_reading = || laws.iter().find_map(|law| taken_out(subject, bare, before, *law, is_asked));
     let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
     // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
     let found = found.or_else(|| {
         if has_gap && is_asked("sampling-jitter") { late(subject, bare, before, is_stopped) } else { None }
     });
-    let found = found.or_else(|| if has_gap { by_reading() } else { None });
+    let found = found.or_else(by_reading);
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
         if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
     };
@@ -187,7 +188,12 @@ fn taken_out(
         }
         (readings, other, bare) = without(&bare)?;
     }
-    if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
+    // What is left of other signals than those with a loose contact is another effect's; reports get lost of all alike.
+    let is_of_others = || {
+        law == Law::Away
+            && readings.iter().all(|(signal, _)| evidence_of(*signal, &other, &bare.prediction) <= THRESHOLD)
+    };
+    if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) && !is_of_others() {
         return None;
     }
     let all = Reading::sum(readings.iter().map(|(_, reading)| reading));
@@ -309,4 +315,55 @@ fn candidate(
         free: free.collect(),
         starts: vec![bounds.iter().map(|bounds| bounds.value).collect()],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::prediction::Predicted;
+    use crate::gap::recorded::{SLOW_PUSHER, study};
+
+    /// The recorded motor with its speed away in one of `every` windows of 0.2 s, and its encoder a hundredth too fast, or not.
+    fn with_a_loose_contact(every: usize, is_too_fast: bool) -> (Study, usize) {
+        let mut study = study(SLOW_PUSHER);
+        let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
+        let prediction = study.bare[place].prediction.clone();
+        let subject = &mut study.subjects[place];
+        for (signal, info) in subject.signals.iter().enumerate() {
+            let (Some(track), Predicted::Level(values)) =
+                (&mut subject.runs[0].tracks[signal], &prediction.runs[0][signal])
+            else {
+                continue;
+            };
+            let instants = track.grid.instants.clone();
+            for (k, (value, law)) in track.values.iter_mut().zip(values).enumerate() {
+                if info.is_count && is_too_fast {
+                    *value = (1.01 * law).floor();
+                }
+                let window = (instants[track.first + k] / 0.2) as usize;
+                if !info.is_count && window % every == 1 {
+                    *value = 0.0;
+                }
+            }
+        }
+        subject.find_floors(&prediction, Timing::AsFound);
+        (study, place)
+    }
+
+    fn found(study: &Study, place: usize) -> Option<(String, Option<String>)> {
+        let chance = find(place, study, &|_| true, &|| false)?;
+        Some((chance.candidate.effect.id.to_owned(), chance.candidate.component.clone()))
+    }
+
+    /// Whatever else is wrong with the motor.
+    #[test]
+    fn a_loose_contact_is_found_beside_another_effect() {
+        let is_it = Some(("intermittent".to_owned(), Some("speedActual".to_owned())));
+        for is_too_fast in [false, true] {
+            let (study, place) = with_a_loose_contact(12, is_too_fast);
+            assert_eq!(found(&study, place), is_it, "{is_too_fast}");
+        }
+        let (study, place) = with_a_loose_contact(usize::MAX, true);
+        assert_eq!(found(&study, place), None);
+    }
 }

@@ -46,8 +46,9 @@ pub(super) struct Reading {
     /// How many samples or edges tell, and how many of them were drawn.
     telling: usize,
     drawn: usize,
-    /// How long the stretches last, s, and the cycle of the grid.
-    spans: Vec<f64>,
+    /// How long the stretches last at least and at most, s, and the cycle of the grid. Beside one that ends where nobody could see it go on
+    /// it may.
+    spans: Vec<[f64; 2]>,
     cycle: f64,
     /// How far off what was drawn is, in floors squared.
     pub misfit: f64,
@@ -141,6 +142,8 @@ impl Reading {
     ) -> Option<()> {
         let instants = &track.grid.instants;
         let (mut telling, mut sure, mut drawn, mut strange) = (0, 0, Vec::new(), 0);
+        // Where a sample would be the same drawn and not.
+        let mut hidden = vec![true; track.values.len()];
         let mut last = predicted.first().copied()?;
         for (k, (recorded, predicted)) in track.values.iter().zip(predicted).enumerate() {
             let index = track.first + k;
@@ -161,6 +164,7 @@ impl Reading {
             let tells = (predicted - other).abs() > APART * gate;
             telling += usize::from(tells);
             strange += usize::from(off > gate && from_other > gate);
+            hidden[k] = from_other <= gate;
             let square = floor.sigma(slope).powi(2) + floor.step.powi(2) / 12.0;
             if from_other <= gate && off.powi(2) - from_other.powi(2) > LIKELIER * square {
                 sure += usize::from(tells);
@@ -176,7 +180,13 @@ impl Reading {
         self.telling += telling;
         self.drawn += sure;
         let stretches = stretches(&drawn);
-        self.spans.extend(stretches.iter().map(|(from, to)| (to - from + 1) as f64 * track.grid.cycle));
+        let shows = |index: usize| index < track.first || hidden.get(index - track.first).is_none_or(|hidden| !hidden);
+        let longest = |(from, to): (usize, usize)| {
+            let before = (track.first..from).rev().take_while(|index| !shows(*index)).count();
+            to - from + 1 + before + (to + 1..).take_while(|index| !shows(*index)).count()
+        };
+        let long = |samples: usize| samples as f64 * track.grid.cycle;
+        self.spans.extend(stretches.iter().map(|&(from, to)| [long(to - from + 1), long(longest((from, to)))]));
         self.stretches.push(stretches);
         Some(())
     }
@@ -214,8 +224,8 @@ impl Reading {
         self.drawn += drawn.len();
         self.misfit += 24.0 * stretches.len() as f64;
         self.spans.extend(match window {
-            Some(window) => vec![window; stretches.len()],
-            None => inner.iter().map(|(from, to)| (to - from + 1) as f64 * track.grid.cycle).collect(),
+            Some(window) => vec![[window; 2]; stretches.len()],
+            None => inner.iter().map(|(from, to)| [(to - from + 1) as f64 * track.grid.cycle; 2]).collect(),
         });
         self.stretches.push(stretches);
         Some(())
@@ -297,8 +307,12 @@ impl Reading {
         let share = self.drawn as f64 / self.telling.max(1) as f64;
         let each = match self.spans.is_empty() || self.cycle <= 0.0 {
             true => 1.0,
-            false => (self.spans.iter().sum::<f64>() / self.spans.len() as f64 / self.cycle).max(1.0),
+            false => {
+                (self.spans.iter().map(|span| span[0]).sum::<f64>() / self.spans.len() as f64).max(self.window().0)
+                    / self.cycle
+            }
         };
+        let each = each.max(1.0);
         let count = self.telling.max(1) as f64 / each;
         let [least, most] = wilson(share * count, count);
         (least, share, most)
@@ -306,13 +320,21 @@ impl Reading {
 
     /// How long a window is, s, and its interval: what most stretches last, within a cycle.
     fn window(&self) -> (f64, [f64; 2]) {
-        // Some are cut short by where the signal is 0 anyway; most are one window long.
         if self.spans.is_empty() {
             return (self.cycle, [self.cycle; 2]);
         }
-        let single = quantile(&self.spans, USUAL).max(self.cycle);
         let off = self.cycle;
-        (single, [(single - off).max(0.0), single + off])
+        let is_whole = |span: &&[f64; 2]| span[1] - span[0] < 0.5 * self.cycle;
+        let whole: Vec<f64> = self.spans.iter().filter(is_whole).map(|span| span[0]).collect();
+        if whole.len() >= LEAST_STRETCHES {
+            // Some are cut short by where the signal is 0 anyway; most are one window long.
+            let single = quantile(&whole, USUAL).max(self.cycle);
+            return (single, [(single - off).max(0.0), single + off]);
+        }
+        // As long as the longest that was seen, and no longer than the shortest may have been.
+        let least = self.spans.iter().map(|span| span[0]).fold(self.cycle, f64::max);
+        let most = self.spans.iter().map(|span| span[1]).fold(f64::INFINITY, f64::min).max(least);
+        ((least * most).sqrt(), [(least - off).max(0.0), most + off])
     }
 }
 
@@ -446,6 +468,20 @@ mod tests {
         assert_eq!(reading.stretches, [vec![(20, 29), (60, 69)]]);
         let (value, [least, most]) = reading.window();
         assert!((value - 0.1).abs() < 1e-9 && least < 0.1 && most > 0.1);
+    }
+
+    /// What is 0 but for three samples of twenty, and away for windows of ten: of each window at most three samples show.
+    #[test]
+    fn a_window_of_which_little_shows_may_be_longer() {
+        let is_away = |k: usize| (k / 10) % 7 == 2;
+        let predicted: Vec<f64> = (0..1200).map(|k| if k % 20 < 3 { 5.0 } else { 0.0 }).collect();
+        let values = predicted.iter().enumerate().map(|(k, x)| if is_away(k) { 0.0 } else { *x }).collect();
+        let (fits, reading) = read(values, &predicted, Law::Away);
+        assert!(fits.is_some());
+        let (value, [least, most]) = reading.window();
+        assert!(least <= 0.1 && 0.1 <= most && (least..most).contains(&value), "{value} {least} {most}");
+        let (least, share, most) = reading.share();
+        assert!(least < 1.0 / 7.0 && 1.0 / 7.0 < most, "{least} {share} {most}");
     }
 
     /// Every fifth report brings what the one before it brought.
