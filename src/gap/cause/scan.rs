@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use super::starts::Clues;
 use crate::gap::Predicted;
 use crate::gap::statistics::span;
+use crate::plant::ParameterValue;
 use crate::value::Quantity;
 
 /// A wave along the way: amplitude·sin(2π·x/period + phase).
@@ -23,6 +24,8 @@ pub struct Wave {
 
 /// The shortest period looked for, as a share of the way.
 const SHORTEST: f64 = 1.0 / 200.0;
+/// The same of what turns, rad: a motor goes hundreds of turns, and most waves repeat with each.
+const SHORTEST_TURN_RAD: f64 = 2.0;
 /// How much of the error a wave must take away to be worth a start.
 const LEAST_SHARE: f64 = 0.02;
 /// How many samples are looked at, at most.
@@ -31,13 +34,16 @@ const MOST_SAMPLES: usize = 4000;
 /// The best waves that the error of a signal has over position, at most `count`: of the position itself, or with `friction` of
 /// the force, either way of motion taken as the same.
 pub fn periods(clues: &Clues<'_>, friction: bool, count: usize) -> Vec<Wave> {
-    let (way, error) = error_along(clues, friction);
+    let turned = if friction { None } else { error_along_turns(clues) };
+    let is_turn = turned.is_some();
+    let (way, error) = turned.unwrap_or_else(|| error_along(clues, friction));
     let travel = span(&way);
     if way.len() < 20 || travel <= 0.0 {
         return Vec::new();
     }
     let step = 1.0 / (8.0 * travel);
-    let last = (1.0 / (SHORTEST * travel) / step) as usize;
+    let shortest = if is_turn { (SHORTEST * travel).min(SHORTEST_TURN_RAD) } else { SHORTEST * travel };
+    let last = (1.0 / shortest / step) as usize;
     let waves: Vec<Wave> = (4..last).filter_map(|k| wave(&way, &error, k as f64 * step)).collect();
     let mut peaks: Vec<Wave> = waves
         .windows(3)
@@ -47,6 +53,30 @@ pub fn periods(clues: &Clues<'_>, friction: bool, count: usize) -> Vec<Wave> {
     peaks.sort_by(|a, b| b.share.total_cmp(&a.share));
     peaks.truncate(count);
     peaks
+}
+
+/// Angles of a motor and their errors, both by its encoder, rad, sample by sample; `None` of what counts nothing.
+fn error_along_turns(clues: &Clues<'_>) -> Option<(Vec<f64>, Vec<f64>)> {
+    let subject = clues.subject;
+    // Of a belt behind a gear the way is the belt's.
+    if subject.kind.name != "kinetwin.EncoderMotor" {
+        return None;
+    }
+    let encoder = subject.signals.iter().position(|info| info.is_count)?;
+    let counts = match subject.parameters.0.get("countsPerRevolution").map(|parameter| &parameter.value) {
+        Some(ParameterValue::Integer(counts)) => *counts as f64,
+        _ => return None,
+    };
+    let (mut way, mut error) = (Vec::new(), Vec::new());
+    for (run, predicted) in subject.runs.iter().zip(&clues.nominal.runs) {
+        let (Some(track), Predicted::Level(predicted)) = (&run.tracks[encoder], &predicted[encoder]) else { continue };
+        way.extend(predicted.iter().map(|count| TAU / counts * count));
+        // A count stands for all of its width.
+        error.extend(track.values.iter().zip(predicted).map(|(count, law)| TAU / counts * (count + 0.5 - law)));
+    }
+    let every = way.len().div_ceil(MOST_SAMPLES).max(1);
+    let some = |all: Vec<f64>| all.into_iter().step_by(every).collect();
+    Some((some(way), some(error)))
 }
 
 /// Positions and errors, sample by sample.
@@ -102,6 +132,9 @@ fn wave(way: &[f64], error: &[f64], frequency: f64) -> Option<Wave> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gap::Overrides;
+    use crate::gap::cause::scales::Scales;
+    use crate::gap::recorded::{SLOW_PUSHER, study};
 
     #[test]
     fn a_wave_of_known_period_is_found_at_its_frequency() {
@@ -110,5 +143,24 @@ mod tests {
         let found = wave(&way, &error, 25.0).unwrap();
         assert!(found.share > 0.999 && (found.amplitude - 0.007).abs() < 1e-6 && (found.phase - 0.4).abs() < 1e-6);
         assert!(wave(&way, &error, 22.0).unwrap().share < 0.2);
+    }
+
+    /// A wheel on a motor's shaft, a little slower than the shaft is and 0.4 rad out, by the motor's encoder.
+    #[test]
+    fn a_wave_that_repeats_with_a_motors_turns_is_found_by_its_encoder() {
+        let study = study(SLOW_PUSHER);
+        let mut motor = study.subject("Motor").expect("it moves").clone();
+        let nominal = motor.predict(&[], &Overrides::none()).expect("a prediction");
+        let encoder = motor.signals.iter().position(|info| info.is_count).expect("an encoder");
+        let Predicted::Level(counts) = &nominal.runs[0][encoder] else { panic!("counts") };
+        let rad = TAU / 4096.0;
+        let read = |count: &f64| (count + 0.4 / rad * (TAU * count * rad / 6.4 + 0.5).sin()).floor();
+        motor.runs[0].tracks[encoder].as_mut().expect("a track").values = counts.iter().map(read).collect();
+        let score = motor.score(&nominal);
+        let scales = Scales::of(&motor, &nominal, None);
+        let found =
+            periods(&Clues { subject: &motor, nominal: &nominal, score: &score, scales, component: None }, false, 3);
+        let best = found.first().expect("a wave");
+        assert!((best.period / 6.4 - 1.0).abs() < 2e-3 && (best.amplitude - 0.4).abs() < 0.05, "{best:?}");
     }
 }

@@ -14,7 +14,7 @@ use crate::gap::fit::Range;
 use crate::gap::schedule::PART_SPACING;
 use crate::gap::statistics::{quantile, span};
 use crate::gap::{Predicted, Prediction, Score, Subject};
-use crate::plant::EffectPlace;
+use crate::plant::{EffectPlace, ParameterValue};
 use crate::prototype::kind::PortType;
 use crate::value::Quantity;
 
@@ -40,6 +40,9 @@ const STIFFEST: f64 = 3000.0;
 const HOLDS_S: &[f64] = &[0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0, 5.0, 10.0];
 /// The longest time that is searched for, s.
 const LONGEST_S: f64 = 3.0;
+/// Which ratios of a cushion are tried for how late strokes are, and which quantiles of that.
+const CUSHION_RATIOS: [f64; 7] = [0.8, 0.6, 0.45, 0.35, 0.25, 0.17, 0.1];
+const CUSHION_LATE: [f64; 2] = [0.5, 0.9];
 /// The most starts of one candidate.
 const MOST: usize = 48;
 
@@ -80,6 +83,7 @@ pub fn of(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
         "once-per-revolution-error" | "position-dependent-friction" => return scanned(base, clues),
         _ => {}
     }
+    let cushions = (base.effect.id == "end-cushioning").then(|| cushions(clues));
     let mut candidates = vec![base];
     for parameter in candidates[0].effect.parameters {
         if parameter.options.is_empty() {
@@ -91,7 +95,27 @@ pub fn of(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
                 candidates.into_iter().flat_map(|base| fixed(base, parameter.name, parameter.options)).collect();
         }
     }
+    for candidate in &mut candidates {
+        candidate.starts.extend(cushions.iter().flatten().cloned());
+    }
     candidates
+}
+
+/// Cushions' lengths and ratios that all make a stroke as late as it is: a way of L at r times the speed v takes L/v·(1/r − 1) longer.
+/// Along them only strokes that turn round within tell one from the other, and no slope leads there.
+fn cushions(clues: &Clues<'_>) -> Vec<Vec<f64>> {
+    let number = |name: &str| match clues.subject.parameters.0.get(name).map(|parameter| &parameter.value) {
+        Some(ParameterValue::Number(number)) => *number,
+        _ => 0.0,
+    };
+    let late = late(clues);
+    let speed = 0.5 * (number("extendSpeed") + number("retractSpeed"));
+    let with = |ratio: f64, late: f64| late * speed * ratio / (1.0 - ratio);
+    let each = CUSHION_LATE
+        .map(|share| quantile(&late, share))
+        .into_iter()
+        .flat_map(|late| CUSHION_RATIOS.map(|ratio| vec![with(ratio, late), ratio]));
+    each.filter(|start| (1e-6..number("stroke")).contains(&start[0])).collect()
 }
 
 fn fixed(base: Candidate, name: &'static str, values: &[f64]) -> Vec<Candidate> {
@@ -321,17 +345,46 @@ fn time_starts(clues: &Clues<'_>) -> Vec<f64> {
         let step = (0.5 * clues.scales.cycle).clamp(2e-3, 0.02);
         times.extend((1..=30).map(|k| f64::from(k) * step));
     }
-    let late: Vec<f64> = clues
-        .score
-        .signals
-        .iter()
-        .flat_map(|signal| &signal.edges)
-        .filter_map(|edge| Some(0.5 * (edge.recorded?.0 + edge.recorded?.1) - edge.predicted?))
-        .filter(|late| *late > 0.0)
-        .collect();
+    let late = late(clues);
     if !late.is_empty() {
         times.extend([0.25, 0.5, 0.75, 0.9].map(|share| quantile(&late, share)));
     }
     times.sort_by(f64::total_cmp);
     times
+}
+
+/// How late the edges are that are, s.
+fn late(clues: &Clues<'_>) -> Vec<f64> {
+    let edges = clues.score.signals.iter().flat_map(|signal| &signal.edges);
+    let late = edges.filter_map(|edge| Some(0.5 * (edge.recorded?.0 + edge.recorded?.1) - edge.predicted?));
+    late.filter(|late| *late > 0.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::Overrides;
+    use crate::gap::recorded::{SLOW_PUSHER, study};
+
+    /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.
+    #[test]
+    fn cushions_are_tried_that_make_strokes_as_late_as_they_are() {
+        let study = study(SLOW_PUSHER);
+        let pusher = study.subject("Pusher").expect("it moves");
+        let nominal = pusher.predict(&[], &Overrides::none()).expect("a prediction");
+        let score = pusher.score(&nominal);
+        let scales = Scales::of(pusher, &nominal, None);
+        let clues = Clues { subject: pusher, nominal: &nominal, score: &score, scales, component: None };
+        let late = CUSHION_LATE.map(|share| quantile(&late(&clues), share));
+        let cushions = cushions(&clues);
+        assert_eq!(cushions.len(), CUSHION_LATE.len() * CUSHION_RATIOS.len());
+        for cushion in cushions {
+            let takes = cushion[0] / 0.5 * (1.0 / cushion[1] - 1.0);
+            assert!(late.iter().any(|late| (takes - late).abs() < 1e-9), "{cushion:?} {late:?}");
+        }
+        let motor = study.subject("Motor").expect("it moves");
+        let nominal = motor.predict(&[], &Overrides::none()).expect("a prediction");
+        let score = motor.score(&nominal);
+        assert!(super::cushions(&Clues { subject: motor, nominal: &nominal, score: &score, ..clues }).is_empty());
+    }
 }
