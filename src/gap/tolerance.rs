@@ -84,6 +84,13 @@ impl Subject {
         tolerant
     }
 
+    /// The same device weighed by noise alone.
+    pub fn weighed_by_noise(&self) -> Subject {
+        let mut plain = self.clone();
+        plain.runs.iter_mut().flat_map(|run| &mut run.floors).for_each(|floor| floor.misfit = 0.0);
+        plain
+    }
+
     /// The same device, whose samples repeat each other where they do under `prediction`: its deviance has no steps then, as it has
     /// where each prediction comes to rest at samples of its own.
     pub fn repeating_as(&self, prediction: &Prediction) -> Subject {

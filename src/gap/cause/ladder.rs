@@ -283,19 +283,33 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
 /// What share of the best one's gain one has to have that is taken where the best is not sure.
 const NEARLY_THE_BEST: f64 = 0.8;
 
+/// Those of the rung that are refitted with everything free, the best first.
+fn settled_first<'a>(below: &Trial, rivals: &'a [Trial], handicapped: &dyn Fn(&Trial) -> f64) -> Vec<&'a Trial> {
+    const MOST: usize = 3;
+    let mut order: Vec<&Trial> = rivals.iter().collect();
+    order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
+    let mut first: Vec<&Trial> = order.into_iter().take(MOST).collect();
+    let is_cheaper = |a: &&Trial, b: &&Trial| a.cost.total_cmp(&b.cost);
+    // Weighed by what no effect leaves, one that leaves nothing may seem not to be worth its parameters.
+    let closest = rivals.iter().min_by(is_cheaper);
+    // What has no number fits all at once or not at all, and may do so once the nominal parameters follow it.
+    let has_none = |trial: &&Trial| trial.set.last().is_some_and(|candidate| candidate.numbers() == 0);
+    let gains = |trial: &&Trial| below.cost - trial.cost > least_gain(1, rivals.len());
+    let plain = rivals.iter().filter(has_none).min_by(is_cheaper).filter(gains);
+    for further in closest.into_iter().chain(plain) {
+        if !first.iter().any(|trial| std::ptr::eq(*trial, further)) {
+            first.push(further);
+        }
+    }
+    first
+}
+
 /// The best of the rung, refitted with everything free: what costs least, where a further parameter and a nominal parameter that
 /// is wrong have to be worth it; with the device as it weighs it. After it those that are nearly as good.
 fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Vec<(Trial, Subject)> {
     // What remembers itself is what a trial leaves, and not what another does.
     let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * trial.inflation();
-    let mut order: Vec<&Trial> = rivals.iter().collect();
-    order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
-    let mut first: Vec<&Trial> = order.into_iter().take(3).collect();
-    // Weighed by what no effect leaves, one that leaves nothing may seem not to be worth its parameters.
-    let Some(closest) = rivals.iter().min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return Vec::new() };
-    if !first.iter().any(|trial| std::ptr::eq(*trial, closest)) {
-        first.push(closest);
-    }
+    let first = settled_first(below, rivals, &handicapped);
     let settled: Vec<(Trial, Subject)> =
         first.par_iter().filter_map(|trial| settle(bench, weighed, trial, below.set.is_empty())).collect();
     // They are compared as the one of them weighs the device that leaves the least.
@@ -509,6 +523,26 @@ mod tests {
         let [found] = ladder.best.set.as_slice() else { panic!("{:?}", ladder.best.specs()) };
         assert!(found.is_same(&set[0]), "{}", found.name());
         assert!((ladder.best.at[0] / by - 1.0).abs() < 0.05, "{:?}", ladder.best.at);
+    }
+
+    /// An inverted report that gains something is fitted anew though three others gain more; one that gains nothing is not.
+    #[test]
+    fn what_has_no_number_is_fitted_anew() {
+        let (subject, nominal, rubs) = rubbing_axis();
+        let score = subject.score(&nominal);
+        let inverted = candidates(&subject, &nominal, &score, &|id| id == "inverted").swap_remove(0);
+        let stop = || false;
+        let bare = Bench::new(&subject, Vec::new(), &stop).trial(&[], Vec::new()).expect("a trial");
+        let trial = |candidate: &Candidate, cost: f64| Trial { set: vec![candidate.clone()], cost, ..bare.clone() };
+        let below = Trial { cost: 1000.0, ..bare.clone() };
+        let first = |gain: f64| {
+            let costs = [500.0, 600.0, 700.0, 800.0].map(|cost| trial(&rubs[0], cost));
+            let rivals: Vec<Trial> = costs.into_iter().chain([trial(&inverted, 1000.0 - gain)]).collect();
+            let first = settled_first(&below, &rivals, &|trial| trial.cost);
+            first.into_iter().map(|trial| trial.cost).collect::<Vec<_>>()
+        };
+        assert_eq!(first(40.0), [500.0, 600.0, 700.0, 960.0]);
+        assert_eq!(first(1.0), [500.0, 600.0, 700.0]);
     }
 
     /// Friction explains an axis to the last step; a lag beside it, as short as one may be, is none.

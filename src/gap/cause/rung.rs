@@ -103,7 +103,12 @@ pub fn rung(
             false => bench.trial(&glance.set, whole.all(&glance, &glance.at)),
         }
     });
-    distinct(trials.collect())
+    // Weighed by what the effects so far leave, ten times as much is hardly anything else than 60/2π times as much.
+    let by_noise = bench.subject.weighed_by_noise();
+    let by_noise = bench.with(&by_noise);
+    distinct(trials.collect(), &|trial| {
+        by_noise.trial(&trial.set, trial.at.clone()).map_or(f64::INFINITY, |trial| trial.cost)
+    })
 }
 
 /// Effects of one parameter that move levels each in a way of its own; what others do goes with one of them, or with the motion itself.
@@ -202,16 +207,26 @@ fn is_in_levels(score: &Score, excess: f64) -> bool {
     levels.max(beneath) > edges
 }
 
-/// The best first; of several choices of one effect the best is the effect.
-fn distinct(mut trials: Vec<Trial>) -> Vec<Trial> {
+/// The best first; of several choices of one effect, which have no number to be found, the effect is the one that costs least by noise alone.
+fn distinct(mut trials: Vec<Trial>, by_noise: &dyn Fn(&Trial) -> f64) -> Vec<Trial> {
     trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let mut distinct: Vec<Trial> = Vec::with_capacity(trials.len());
+    let mut distinct: Vec<(Trial, Option<f64>)> = Vec::with_capacity(trials.len());
     for trial in trials {
         let is_there = |other: &Trial| other.set.last().zip(trial.set.last()).is_some_and(|(a, b)| a.is_same(b));
-        if !distinct.iter().any(is_there) {
-            distinct.push(trial);
+        let Some((other, cost)) = distinct.iter_mut().find(|(other, _)| is_there(other)) else {
+            distinct.push((trial, None));
+            continue;
+        };
+        if trial.set.last().is_some_and(|candidate| candidate.free.is_empty()) {
+            let before = *cost.get_or_insert_with(|| by_noise(other));
+            let after = by_noise(&trial);
+            if after < before {
+                (*other, *cost) = (trial, Some(after));
+            }
         }
     }
+    let mut distinct: Vec<Trial> = distinct.into_iter().map(|(trial, _)| trial).collect();
+    distinct.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     distinct
 }
 
@@ -617,5 +632,29 @@ impl Looks<'_> {
             Some(other) if other.cost < there.cost => other,
             _ => there,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::cause::axis_tests::rubbing_axis;
+    use crate::gap::cause::library::candidates;
+
+    /// Of two units the one that costs less by noise alone, though not as the gap weighs it; of friction's places the cheapest.
+    #[test]
+    fn of_several_units_that_is_named_which_fits_to_the_noise() {
+        let (subject, nominal, rubs) = rubbing_axis();
+        let units = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "wrong-unit");
+        let (one, other) =
+            (&units[0], units.iter().skip(1).find(|unit| unit.is_same(&units[0])).expect("another unit"));
+        let stop = || false;
+        let bare = Bench::new(&subject, Vec::new(), &stop).trial(&[], Vec::new()).expect("a trial");
+        let trial = |candidate: &Candidate, cost: f64| Trial { set: vec![candidate.clone()], cost, ..bare.clone() };
+        let trials = vec![trial(one, 100.0), trial(other, 101.0), trial(&rubs[0], 50.0), trial(&rubs[0], 60.0)];
+        let by_noise = |trial: &Trial| if trial.cost == 100.0 { 9000.0 } else { 8.0 };
+        let left = distinct(trials, &by_noise);
+        assert_eq!(left.iter().map(|trial| trial.cost).collect::<Vec<_>>(), [50.0, 101.0]);
+        assert_eq!(left[1].set[0].fixed, other.fixed);
     }
 }
