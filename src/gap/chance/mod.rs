@@ -188,9 +188,14 @@ fn taken_out(
         }
         (readings, other, bare) = without(&bare)?;
     }
+    let are_whatever_is_read = || readings.iter().all(|(_, reading)| reading.is_whatever_is_read());
+    if before <= THRESHOLD && !are_whatever_is_read() {
+        return None;
+    }
     // What is left of other signals than those with a loose contact is another effect's; reports get lost of all alike.
     let is_of_others = || {
         law == Law::Away
+            && are_whatever_is_read()
             && readings.iter().all(|(signal, _)| evidence_of(*signal, &other, &bare.prediction) <= THRESHOLD)
     };
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) && !is_of_others() {

@@ -50,6 +50,8 @@ pub(super) struct Reading {
     /// it may.
     spans: Vec<[f64; 2]>,
     cycle: f64,
+    /// How far from 0 samples that tell were predicted where they were drawn, and where they were not.
+    sizes: [Vec<f64>; 2],
     /// How far off what was drawn is, in floors squared.
     pub misfit: f64,
 }
@@ -169,8 +171,10 @@ impl Reading {
             if from_other <= gate && off.powi(2) - from_other.powi(2) > LIKELIER * square {
                 sure += usize::from(tells);
                 drawn.push(index);
+                self.sizes[0].extend(tells.then_some(predicted.abs()));
                 self.misfit += off.powi(2) / square;
             } else {
+                self.sizes[1].extend(tells.then_some(predicted.abs()));
                 last = *predicted;
             }
         }
@@ -287,6 +291,12 @@ impl Reading {
             track.blind.extend(stretches.iter().copied());
             track.blind.sort_unstable();
         }
+    }
+
+    /// Whether what was drawn was so whatever should have been read: what sticks stands still where it should be slow.
+    pub fn is_whatever_is_read(&self) -> bool {
+        let [drawn, others] = &self.sizes;
+        sooner(drawn, others) < SOONER
     }
 
     /// Several signals' readings as one.
@@ -482,6 +492,19 @@ mod tests {
         assert!(least <= 0.1 && 0.1 <= most && (least..most).contains(&value), "{value} {least} {most}");
         let (least, share, most) = reading.share();
         assert!(least < 1.0 / 7.0 && 1.0 / 7.0 < most, "{least} {share} {most}");
+    }
+
+    /// A speed that rises and falls; of an axis that sticks where it is slow nothing is away, whatever is so for windows.
+    #[test]
+    fn what_stands_still_where_it_should_be_slow_is_not_away() {
+        let predicted: Vec<f64> = (0..1200).map(|k| 5.0 * (f64::from(k) * 0.05).sin().abs()).collect();
+        let of = |is_drawn: &dyn Fn(usize, f64) -> bool| {
+            let value = |(k, law): (usize, &f64)| if is_drawn(k, *law) { 0.0 } else { *law };
+            let (fits, reading) = read(predicted.iter().enumerate().map(value).collect(), &predicted, Law::Away);
+            fits.is_some() && reading.is_whatever_is_read()
+        };
+        assert!(!of(&|_, law| law < 1.0));
+        assert!(of(&|k, _| k / 10 % 7 == 2));
     }
 
     /// Every fifth report brings what the one before it brought.
