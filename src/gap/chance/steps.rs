@@ -121,7 +121,8 @@ impl Steps {
             let each: Vec<f64> = slopes.chunk_by(|a, b| a.0 == b.0).map(of_one).collect();
             rate -= each.iter().sum::<f64>() / bend;
             // Within the summit that was found: it is as wide as the rate at which the furthest reading is a step further.
-            if each.len() < FEWEST || !((rate - first).abs() * furthest < 0.5) {
+            let is_within = (rate - first).abs() * furthest < 0.5;
+            if each.len() < FEWEST || !is_within {
                 return None;
             }
             deviation = each.iter().map(|slope| slope * slope).sum::<f64>().sqrt() / bend.abs();
