@@ -37,6 +37,13 @@ pub struct Fit {
 
 /// How many Levenberg steps, and trials of the exact distance.
 const STEPS: usize = 8;
+/// How far a number is moved to see what it does: so far that what is heard changes by that, and by this share of what is left; and how often
+/// it is moved further for that.
+const SEEN: f64 = 2.0;
+const SEEN_OF_REST: f64 = 0.02;
+const WIDENINGS: usize = 6;
+/// How many standard deviations what is unknown may be off.
+const MOST_OFF: f64 = 3.0;
 /// Starts from which the search goes on.
 const BEST: usize = 2;
 
@@ -162,7 +169,7 @@ impl<'a> Goal<'a> {
             let most = if free.is_log { 1.5 } else { f64::INFINITY };
             *value = value.clamp(old - most, old + most).clamp(free.range.0, free.range.1);
         }
-        moved[candidate.free.len()..].iter_mut().for_each(|off| *off = off.clamp(-3.0, 3.0));
+        moved[candidate.free.len()..].iter_mut().for_each(|off| *off = off.clamp(-MOST_OFF, MOST_OFF));
         moved
     }
 
@@ -170,14 +177,15 @@ impl<'a> Goal<'a> {
         let (own, unknown) = (candidate.free.len(), self.columns.len());
         let mut jacobian = DMatrix::zeros(residual.len(), own + unknown);
         for (k, free) in candidate.free.iter().enumerate() {
-            // Far enough that edges and counts move.
+            // Far enough that edges and counts move, and by more than they are rounded to where much is left.
+            let least = SEEN.max(SEEN_OF_REST * residual.norm());
             let mut small = free.small;
-            for _ in 0..4 {
+            for _ in 0..WIDENINGS {
                 let mut there = at.to_vec();
                 let side = if there[k] + small > free.range.1 { -small } else { small };
                 there[k] += side;
                 let change = self.differences(candidate, &there) - residual;
-                let is_seen = change.norm() > 2.0;
+                let is_seen = change.norm() > least;
                 jacobian.set_column(k, &(change / side));
                 if is_seen {
                     break;

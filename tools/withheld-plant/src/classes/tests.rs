@@ -139,6 +139,18 @@ fn a_drawn_plants_classes_are_in_its_own_names_and_to_its_own_scale() {
     assert!(own.iter().any(|candidate| look.distance(candidate) <= SAME));
 }
 
+/// A motor at several speeds for half a minute, its encoder a seventh short: a count of a million tells one scale from the next.
+#[test]
+fn a_motor_that_slips_by_much_has_another_scale() {
+    let speeds = [24.0, -12.0, 18.0, 6.0, -24.0, 10.0, 21.0, -7.0, 15.0, 24.0, 3.0, -18.0, 20.0, 24.0];
+    let mut script = vec![(0.1, "enable", 1.0)];
+    script.extend(speeds.iter().enumerate().map(|(k, speed)| (0.2 + 3.7 * k as f64, "speedTarget", *speed)));
+    let rig = Rig::new("Motor", &script);
+    let slips = at("transmission", quirk("Motor", "belt-slip", &[("ratio", 0.1446)]));
+    let found = rig.distance(&slips, "scale-error", 54.0);
+    assert!(found <= SAME, "{found}");
+}
+
 #[test]
 fn a_belt_that_slips_has_another_scale_and_no_other_gain() {
     let slips = at("transmission", quirk("Belt", "belt-slip", &[("ratio", 0.1)]));
