@@ -42,7 +42,7 @@ fn first_of(track: &Track, grid: Arc<Grid>) -> Track {
 
 #[cfg(test)]
 mod tests {
-    use crate::gap::recorded::{RUBBING_AXIS, study};
+    use crate::gap::recorded_tests::{RUBBING_AXIS, study};
     use crate::gap::{Overrides, Predicted};
 
     /// Every device of a recorded rig does in its first third what it does in the first third of all.

@@ -211,7 +211,7 @@ fn set(subject: &mut Subject, filter_s: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::recorded::{SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{SLOW_PUSHER, study};
     use crate::gap::score::SignalScore;
     use crate::gap::{Overrides, Study};
 

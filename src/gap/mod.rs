@@ -51,8 +51,6 @@ mod parts;
 pub mod plan;
 mod prediction;
 pub mod production;
-#[cfg(test)]
-mod recorded;
 mod recording;
 mod regimes;
 pub mod report;
@@ -97,3 +95,6 @@ pub use subject::{Run, SignalInfo, Subject};
 pub use task::Task;
 pub use track::{Edge, Track};
 pub use world::{Cut, Script, Surrounding, Told};
+
+#[cfg(test)]
+mod recorded_tests;

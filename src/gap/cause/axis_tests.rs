@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::library::candidates;
-use crate::gap::recorded::{RUBBING_AXIS, study};
+use crate::gap::recorded_tests::{RUBBING_AXIS, study};
 use crate::gap::{Overrides, Predicted, Prediction, Subject};
 
 /// The recorded axis, what it would do without friction, and friction as a candidate.

@@ -134,7 +134,7 @@ mod tests {
     use super::*;
     use crate::gap::Overrides;
     use crate::gap::cause::scales::Scales;
-    use crate::gap::recorded::{SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{RUBBING_AXIS, study};
 
     #[test]
     fn a_wave_of_known_period_is_found_at_its_frequency() {
@@ -148,7 +148,7 @@ mod tests {
     /// A wheel on a motor's shaft, a little slower than the shaft is and 0.4 rad out, by the motor's encoder.
     #[test]
     fn a_wave_that_repeats_with_a_motors_turns_is_found_by_its_encoder() {
-        let study = study(SLOW_PUSHER);
+        let study = study(RUBBING_AXIS);
         let mut motor = study.subject("Motor").expect("it moves").clone();
         let nominal = motor.predict(&[], &Overrides::none()).expect("a prediction");
         let encoder = motor.signals.iter().position(|info| info.is_count).expect("an encoder");

@@ -364,7 +364,7 @@ fn late(clues: &Clues<'_>) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::gap::Overrides;
-    use crate::gap::recorded::{SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{SLOW_PUSHER, study};
 
     /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.
     #[test]

@@ -326,7 +326,7 @@ fn candidate(
 mod tests {
     use super::*;
     use crate::gap::prediction::Predicted;
-    use crate::gap::recorded::{SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{SLOW_PUSHER, study};
 
     /// The recorded motor with its speed away in one of `every` windows of 0.2 s, and its encoder a hundredth too fast, or not.
     fn with_a_loose_contact(every: usize, is_too_fast: bool) -> (Study, usize) {

@@ -283,7 +283,7 @@ mod tests {
 
     use super::*;
     use crate::effect::EFFECTS;
-    use crate::gap::recorded::{SLOW_PUSHER, rig, study};
+    use crate::gap::recorded_tests::{SLOW_PUSHER, rig, study};
     use crate::plant::EffectPlace;
 
     /// An axis of a robot that turns and a motor are limited in radians, the robot's other axes and a servo axis along a line in metres.

@@ -344,7 +344,7 @@ mod tests {
     /// States that nobody looks at change no level.
     #[test]
     fn levels_are_what_they_are_whether_states_are_looked_at_or_not() {
-        let study = crate::gap::recorded::study(crate::gap::recorded::SLOW_PUSHER);
+        let study = crate::gap::recorded_tests::study(crate::gap::recorded_tests::SLOW_PUSHER);
         let mut compared = 0;
         for subject in &study.subjects {
             let all = subject.predict(&[], &Overrides::none()).expect("a prediction");
