@@ -326,11 +326,11 @@ fn candidate(
 mod tests {
     use super::*;
     use crate::gap::prediction::Predicted;
-    use crate::gap::recorded_tests::{SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{RUBBING_AXIS, study};
 
     /// The recorded motor with its speed away in one of `every` windows of 0.2 s, and its encoder a hundredth too fast, or not.
     fn with_a_loose_contact(every: usize, is_too_fast: bool) -> (Study, usize) {
-        let mut study = study(SLOW_PUSHER);
+        let mut study = study(RUBBING_AXIS);
         let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
         let prediction = study.bare[place].prediction.clone();
         let subject = &mut study.subjects[place];
@@ -351,6 +351,7 @@ mod tests {
                 }
             }
         }
+        assert!(subject.signals.iter().any(|info| info.is_count) && subject.signals.iter().any(|info| !info.is_count));
         subject.find_floors(&prediction, Timing::AsFound);
         (study, place)
     }
@@ -367,6 +368,9 @@ mod tests {
         for is_too_fast in [false, true] {
             let (study, place) = with_a_loose_contact(12, is_too_fast);
             assert_eq!(found(&study, place), is_it, "{is_too_fast}");
+            let chance = find(place, &study, &|_| true, &|| false).expect("a contact");
+            let is_left = evidence(&chance.subject, &chance.bare.prediction) > THRESHOLD;
+            assert_eq!(is_left, is_too_fast);
         }
         let (study, place) = with_a_loose_contact(usize::MAX, true);
         assert_eq!(found(&study, place), None);
