@@ -139,7 +139,8 @@ fn a_drawn_plants_classes_are_in_its_own_names_and_to_its_own_scale() {
     assert!(own.iter().any(|candidate| look.distance(candidate) <= SAME));
 }
 
-/// A motor at several speeds for half a minute, its encoder a seventh short: a count of a million tells one scale from the next.
+/// A motor at several speeds for most of a minute, its encoder a seventh short: what a small step of the scale changes is less than counts are
+/// rounded to.
 #[test]
 fn a_motor_that_slips_by_much_has_another_scale() {
     let speeds = [24.0, -12.0, 18.0, 6.0, -24.0, 10.0, 21.0, -7.0, 15.0, 24.0, 3.0, -18.0, 20.0, 24.0];
