@@ -236,8 +236,10 @@ impl Voter {
     pub fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
         let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
         let (rest, slopes) = (self.rest(&under.predict(&[], &self.overrides())?), &self.slopes);
-        // What the nominal parameters can take of them within their tolerances is taken off.
+        // What the nominal parameters can take of them within their tolerances is taken off. Further off nobody builds: of an axis that goes the
+        // wrong way they would be strained by thousands, and that would be all that anybody hears.
         let taken = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+        let taken = (&self.strain + taken).map(|strain| strain.clamp(-FURTHEST, FURTHEST)) - &self.strain;
         let taken_slopes = self.known.solve(&(self.columns.transpose() * slopes));
         let (rest, slopes) = (rest - &self.columns * &taken, slopes - &self.columns * &taken_slopes);
         let of = |place: usize| Sums { place, ..Sums::default() };

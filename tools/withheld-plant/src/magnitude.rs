@@ -15,7 +15,8 @@
 //!
 //! What a machine built otherwise within its tolerances would show as well tells nobody of an effect: of the differences d of the
 //! levels that part is taken away which its measures explain, by their own runs J and what is known of them beforehand:
-//! D² = d·d − dᵀJ(1 + JᵀJ)⁻¹Jᵀd.
+//! D² = d·d − dᵀJ(1 + JᵀJ)⁻¹Jᵀd. So is what an age of the reports would show that the other devices leave possible. Counts are compared as
+//! they are before they are rounded, as levels are: what rounding leaves unsure is in their unit.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde::{Deserialize, Serialize};
@@ -56,8 +57,8 @@ impl Magnitude {
     }
 }
 
-/// What the tolerances of a machine may make of its reports: how a run moves with each of its measures, by a standard deviation of
-/// what is drawn anywhere within its tolerance.
+/// What the tolerances of a machine, and what else is unknown of it, may make of its reports: how a run moves with each of its measures, by a
+/// standard deviation of what is drawn anywhere within its tolerance.
 pub struct Hidden {
     columns: Vec<Vec<f64>>,
     /// Of the columns' squares, with what is known of the measures beforehand.
@@ -87,9 +88,25 @@ impl Hidden {
 
 /// The distance D of two runs of a device, but for what its `hidden` measures can take away of it.
 pub fn distance(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundings, hidden: &Hidden) -> f64 {
+    (levels_apart(one, other, signals, around, hidden).powi(2) + flags_apart(one, other, signals)).sqrt()
+}
+
+/// The same of their levels alone.
+pub fn levels_apart(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundings, hidden: &Hidden) -> f64 {
     let apart = apart(one, other, signals, around);
-    let levels = product(&apart, &apart);
-    ((levels - hidden.takes(&apart)).max(0.0) + flags_apart(one, other, signals)).sqrt()
+    (product(&apart, &apart) - hidden.takes(&apart)).max(0.0).sqrt()
+}
+
+/// D of a level that scatters by `sigma` more, of so many `reports`: by how many standard deviations the logarithm of its variance lies above that
+/// of the noisiest that a sensor may be. Nobody says how much a sensor scatters, but how much the others of a machine do, in their steps:
+/// it may have twice as many as the noisiest of the table, and two besides.
+pub fn noise_beyond(signal: &Signal, sigma: f64, around: &Surroundings, reports: usize) -> f64 {
+    const NOISIEST: f64 = 3.0;
+    const TWICE: f64 = 2.0;
+    let rounding = signal.quantum.powi(2) / 12.0;
+    let has = (around.noise * signal.sigma).powi(2) + sigma.powi(2) + rounding;
+    let may_have = (TWICE * signal.quantum).powi(2) * ((NOISIEST * around.noise).powi(2) + 1.0) + rounding;
+    (0.5 * reports as f64).sqrt() * (has / may_have).ln().max(0.0)
 }
 
 /// The differences of all levels, in units of what noise and rounding leave unsure.
@@ -174,6 +191,17 @@ mod tests {
             (squared(0.0) - 11.0 * 48.0).abs() < 1e-6 && (squared(0.2) - 11.0 * 4.0 / (0.04 + 1.0 / 12.0)).abs() < 1e-3
         );
         assert!((squared(1.0) - 110.0 * 4.0 / (1.0 + 1.0 / 12.0)).abs() < 1e-3, "{}", squared(1.0));
+    }
+
+    #[test]
+    fn noise_is_none_that_a_sensor_may_have() {
+        let signal = Signal { name: "Axis.velocity".into(), kind: Kind::Level, quantum: 1e-3, sigma: 1.5e-3 };
+        let around = Surroundings { noise: 1.0, ..Surroundings::draw(&mut crate::chance::Dice::new(1, 2)) };
+        assert_eq!(noise_beyond(&signal, 6e-3, &around, 2000), 0.0);
+        // Four times the variance of what it may have, to within what it has and rounding.
+        let four = (4.0 * 40.0e-6_f64).sqrt();
+        let found = noise_beyond(&signal, four, &around, 2000);
+        assert!((found - 1000.0_f64.sqrt() * 4.0_f64.ln()).abs() < 1.0, "{found}");
     }
 
     #[test]

@@ -27,6 +27,8 @@ pub struct Motor {
     /// Above a speed the encoder loses counts, so many a second.
     skips: Option<(f64, f64)>,
     skipped: f64,
+    /// Whether its encoder tells parts of a count.
+    tells_parts: bool,
 }
 
 impl Motor {
@@ -43,6 +45,7 @@ impl Motor {
             supply: 1.0 - all.value("supply-drop", "fraction").unwrap_or(0.0),
             skips: all.get("x-encoder-skips").map(|quirk| (quirk.value("speed"), quirk.value("rate"))),
             skipped: 0.0,
+            tells_parts: false,
         }
     }
 }
@@ -70,11 +73,16 @@ impl Device for Motor {
 
     fn read(&self, _now: f64, values: &mut Vec<f64>) {
         // A count that is reached exactly is reached, whatever the last place of a sum says.
-        let counts = (self.train.load() / TAU * self.counts - self.skipped.trunc() + 1e-7).floor();
+        let counts = self.train.load() / TAU * self.counts - self.skipped.trunc() + 1e-7;
+        let counts = if self.tells_parts { counts } else { counts.floor() };
         values.extend([counts, self.drive.speed(), f64::from(self.enable)]);
     }
 
     fn moving(&self) -> usize {
         usize::from(self.drive.speed().abs() > 1e-3)
+    }
+
+    fn tell_parts(&mut self) {
+        self.tells_parts = true;
     }
 }

@@ -18,6 +18,8 @@ pub trait Device: fmt::Debug + Send {
     fn read(&self, now: f64, values: &mut Vec<f64>);
     /// How many of its drives move, and so draw from a common supply: of a robot each axis is one.
     fn moving(&self) -> usize;
+    /// Its counters tell parts of a count from now on: what a distance is measured in, whose unit is what rounding leaves unsure.
+    fn tell_parts(&mut self) {}
 }
 
 /// What a report is, and how its sensor scatters.
@@ -104,6 +106,12 @@ impl Plant {
         self.devices.retain(|(name, _)| name == device);
         self.signals.retain(|signal| signal.parts().0 == device);
         self.company = company;
+    }
+
+    /// With counters that tell parts of a count.
+    pub fn telling_parts(mut self) -> Plant {
+        self.devices.iter_mut().for_each(|(_, device)| device.tell_parts());
+        self
     }
 
     /// Runs under `commands`, sorted by their instants, until `end`; gives what each sensor sees: of edges and of

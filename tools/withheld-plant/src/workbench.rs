@@ -1,6 +1,6 @@
 //! A machine that a case is tried on: built as one is, listened to as it happens, with something wrong or nothing.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -8,7 +8,7 @@ use crate::catalogue::{Entry, Spot};
 use crate::chance::Dice;
 use crate::classes::{self, Alone};
 use crate::machine::{Machine, with_each_larger};
-use crate::magnitude::{Hidden, Magnitude, distance};
+use crate::magnitude::{Hidden, Magnitude, distance, levels_apart, noise_beyond};
 use crate::plant::{Command, Plant, Signal};
 use crate::quirk::{Member, Quirk};
 use crate::record::{self, Seen, Surroundings};
@@ -22,6 +22,13 @@ const TOLERANCE: f64 = 0.01;
 /// With this share of its strength an effect shows at most so much of what it shows.
 const WEAKER: f64 = 0.1;
 const SHOWS_LESS: f64 = 0.5;
+
+/// What is measured by how much a level scatters, and not by how it did.
+const NOISE: &str = "noise";
+
+/// Reports are at most so old, s, and so much older to see what that does.
+const MOST_AGE: f64 = 1e-3;
+const OLDER: f64 = 2e-6;
 
 /// Whether how much an effect shows comes of its strength: a tenth of it shows less. A delay of a microsecond by which one command misses
 /// its task, and comes a whole cycle of it later, is not told from any other cause of that by anyone.
@@ -91,6 +98,8 @@ pub struct Bench {
     tolerance: f64,
     /// By device, what its tolerances hide.
     hidden: RefCell<BTreeMap<String, Rc<Hidden>>>,
+    /// By device, how much its levels tell of the age of the reports, 1/s².
+    age_known: OnceCell<BTreeMap<String, f64>>,
 }
 
 impl Bench {
@@ -107,7 +116,7 @@ impl Bench {
         let told = if design.is_connected() { &*built } else { design.machine() };
         let scripts =
             scripts.map(|part| record::heard(&told.program(part, &[], seed ^ part as u64, &mut dice), &known));
-        Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default() }
+        Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default(), age_known: OnceCell::new() }
     }
 
     /// What all chance of a recording follows from.
@@ -117,8 +126,16 @@ impl Bench {
 
     /// What is seen of it with nothing wrong.
     pub fn healthy(&self) -> Run {
-        let (plant, seen) = self.watched(Part::Train, &[], &self.scripts[Part::Train as usize]);
+        let mut plant = self.built.plant(&[], self.seed_of(Part::Train)).telling_parts();
+        let seen = self.listened(&mut plant, self.around.age);
         Run { plant, seen }
+    }
+
+    /// What is heard of a plant under the training recording's commands, reports being so old.
+    fn listened(&self, plant: &mut Plant, age: f64) -> Seen {
+        let around = Surroundings { age, ..self.around.clone() };
+        let script = &self.scripts[Part::Train as usize];
+        record::watch(plant, script, &around, Part::Train.seconds(), self.seed_of(Part::Train))
     }
 
     fn watched(&self, part: Part, quirks: &[Quirk], script: &[Command]) -> (Plant, Seen) {
@@ -130,14 +147,12 @@ impl Bench {
 
     /// What one device of `built` reports in the training recording while it has `quirks`, told what it is told without them. Where no
     /// device touches another, no other has to run.
-    fn of_device(&self, built: &dyn Machine, quirks: &[Quirk], device: &str, healthy: &Run) -> Seen {
-        let seed = self.seed_of(Part::Train);
-        let mut plant = built.plant(quirks, seed);
+    fn of_device(&self, built: &dyn Machine, quirks: &[Quirk], (device, age): (&str, f64), healthy: &Run) -> Seen {
+        let mut plant = built.plant(quirks, self.seed_of(Part::Train)).telling_parts();
         if !self.design.is_connected() {
             plant.keep(device, healthy.plant.company_of(device));
         }
-        let script = &self.scripts[Part::Train as usize];
-        let seen = record::watch(&mut plant, script, &self.around, Part::Train.seconds(), seed);
+        let seen = self.listened(&mut plant, age);
         seen.of(device, &plant.signals)
     }
 
@@ -172,28 +187,73 @@ impl Bench {
     pub fn distance(&self, quirks: &[Quirk], healthy: &Run) -> f64 {
         let machine = self.design.machine();
         let devices: BTreeSet<&str> = quirks.iter().map(|quirk| machine.reporter(&quirk.device)).collect();
+        let others: Vec<Quirk> = quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
         let squared = |device: &str| {
+            if others.is_empty() {
+                return 0.0;
+            }
             let signals = healthy.signals_of(device);
-            let seen = self.of_device(&*self.built, quirks, device, healthy);
+            let seen = self.of_device(&*self.built, &others, (device, self.around.age), healthy);
             let hidden = self.hidden(device, healthy);
             distance(&seen, &healthy.seen_of(device), &signals, &self.around, &hidden).powi(2)
         };
-        devices.into_iter().map(squared).sum::<f64>().sqrt()
+        let noises = quirks.iter().filter(|quirk| quirk.effect == NOISE);
+        let noisy = noises.map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
+        (devices.into_iter().map(squared).sum::<f64>() + noisy).sqrt()
     }
 
-    /// What a device's tolerances hide: measured once.
+    /// How far a level's noise goes beyond what its sensor may have anyway.
+    fn noise_shows(&self, noise: &Quirk, healthy: &Run) -> f64 {
+        let port = noise.component.as_deref().unwrap_or_default();
+        let name = format!("{}.{port}", self.design.machine().reporter(&noise.device));
+        let signal = healthy.plant.signals.iter().find(|signal| signal.name == name);
+        let reports = self.around.due(Part::Train.seconds()).len();
+        signal.map_or(0.0, |signal| noise_beyond(signal, noise.value("sigma"), &self.around, reports))
+    }
+
+    /// What a device's tolerances hide, and the age of its reports as far as the other devices leave it unknown: measured once.
     fn hidden(&self, device: &str, healthy: &Run) -> Rc<Hidden> {
         if let Some(known) = self.hidden.borrow().get(device) {
             return known.clone();
         }
-        // The standard deviation of what is drawn anywhere between two bounds.
-        let share = self.tolerance / 3.0_f64.sqrt();
-        let larger = if share > 0.0 { with_each_larger(&*self.built, device, share) } else { Vec::new() };
-        let moved: Vec<Seen> = larger.iter().map(|built| self.of_device(&**built, &[], device, healthy)).collect();
+        let age = self.around.age;
         let base = healthy.seen_of(device);
+        let mut moved = self.with_each_larger(device, healthy);
+        let older = self.of_device(&*self.built, &[], (device, age + self.age_unsure(device, healthy)), healthy);
+        moved.push(older);
         let hidden = Rc::new(Hidden::new(&moved, &base, &healthy.signals_of(device), &self.around));
         self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
         hidden
+    }
+
+    /// What is seen of a device with each of its measures larger by a standard deviation of what is drawn anywhere within its tolerance.
+    fn with_each_larger(&self, device: &str, healthy: &Run) -> Vec<Seen> {
+        let share = self.tolerance / 3.0_f64.sqrt();
+        let larger = if share > 0.0 { with_each_larger(&*self.built, device, share) } else { Vec::new() };
+        larger.iter().map(|built| self.of_device(&**built, &[], (device, self.around.age), healthy)).collect()
+    }
+
+    /// The standard deviation of the age of the reports, s, as all devices but this one know it: by the levels of each, but for what its
+    /// tolerances hide of that.
+    fn age_unsure(&self, but: &str, healthy: &Run) -> f64 {
+        // What is known of it beforehand.
+        let most = MOST_AGE / 12.0_f64.sqrt();
+        let known = self.age_known.get_or_init(|| {
+            let mut plant = self.built.plant(&[], self.seed_of(Part::Train)).telling_parts();
+            let older = Run { seen: self.listened(&mut plant, self.around.age + OLDER), plant };
+            let devices: BTreeSet<&str> = healthy.plant.signals.iter().map(|signal| signal.parts().0).collect();
+            let of = |device: &str| {
+                let (base, signals) = (healthy.seen_of(device), healthy.signals_of(device));
+                // Where devices touch each other, each measure of each of them would be a run of all.
+                let is_alone = !self.design.is_connected();
+                let moved = if is_alone { self.with_each_larger(device, healthy) } else { Vec::new() };
+                let hidden = Hidden::new(&moved, &base, &signals, &self.around);
+                levels_apart(&older.seen_of(device), &base, &signals, &self.around, &hidden) / OLDER
+            };
+            devices.into_iter().map(|device| (device.to_owned(), of(device).powi(2))).collect()
+        });
+        let others = known.iter().filter(|(device, _)| *device != but).map(|(_, known)| known);
+        (most.powi(-2) + others.sum::<f64>()).sqrt().recip()
     }
 
     /// What nobody can tell from `quirk` in the training recording; where devices touch each other nothing is known of that.

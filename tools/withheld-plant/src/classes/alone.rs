@@ -57,7 +57,7 @@ impl Alone<'_> {
     /// What is heard of it until `end`, with these effects and what is unknown so far off.
     pub fn hear(&self, quirks: &[Quirk], unknowns: &Unknowns, end: f64) -> Heard {
         let shares: Vec<f64> = unknowns.measures.iter().map(|off| off * self.share).collect();
-        let mut plant = with_larger(self.built, self.device, &shares).plant(quirks, self.seed);
+        let mut plant = with_larger(self.built, self.device, &shares).plant(quirks, self.seed).telling_parts();
         plant.keep(self.device, self.company.clone());
         let filter = (self.around.filter + FILTER * unknowns.filter).max(0.0);
         let around = Surroundings { filter, ..self.around.clone() };
