@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
-use super::ladder::{DRAWS, Ladder, Tell, handicap};
+use super::ladder::{DRAWS, Ladder, Tell, anew, handicap};
 use super::rung::rung;
 use super::unseen::unseen;
 use crate::gap::statistics::{Draws, SAME_CLASS};
@@ -43,6 +43,9 @@ pub struct Answer {
 /// noise does to the difference.
 const NEAR: f64 = 4.0 * SAME_CLASS;
 
+/// Of how many that are not so near, the best first, it is asked whether the other effects of the answer bring them there.
+const REFITTED: usize = 4;
+
 /// Which of several effects that give the same motion is named: one inside the device before one of its commands, that before one
 /// of its sensors, and last one of the link behind them; a plain delay before a filter.
 pub fn plainness(candidate: &Candidate) -> u32 {
@@ -80,7 +83,8 @@ fn answer(
     } else {
         let without = without(bench, best, place);
         let is_near = |candidate: &Candidate| ladder.near.iter().any(|near| near.is_same(candidate));
-        without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost, is_asked, &is_near, tell))
+        let others = without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost, is_asked, &is_near, tell));
+        refitted(bench, best, named, others)
     };
     let inflation = best.inflation();
     let near: Vec<Trial> = others
@@ -101,6 +105,18 @@ fn answer(
         !holds_it && !is_alias && !is_part
     });
     weigh(bench, ladder, Answer { place, weight: 0.0, alternatives })
+}
+
+/// Those of `others` that are not near `best` with the effects beside them fitted anew, as far as they are the first: what is told of a play by a gain
+/// that is too small is a smaller play behind a scale that is.
+fn refitted(bench: &Bench<'_>, best: &Trial, named: &Candidate, mut others: Vec<Trial>) -> Vec<Trial> {
+    others.retain(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)));
+    others.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let near = others.partition_point(|trial| trial.cost - best.cost < NEAR * best.inflation());
+    let further: Vec<Trial> = others.drain(near..).take(REFITTED).collect();
+    let anew = |trial: &Trial| bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len()));
+    others.extend(further.par_iter().filter_map(anew).collect::<Vec<_>>());
+    others
 }
 
 /// Whether one of the two is an effect of a link as a whole and the other the same of one of its signals.

@@ -56,6 +56,10 @@ pub(super) struct Reading {
     pub misfit: f64,
 }
 
+fn is_beam(subject: &Subject, signal: usize) -> bool {
+    beam_of(&subject.signals[signal]).is_some()
+}
+
 impl Law {
     pub fn id(self) -> &'static str {
         match self {
@@ -89,12 +93,13 @@ impl Reading {
                     let half = if subject.signals[signal].is_count { 0.5 } else { 0.0 };
                     all.level(track, values, half, &run.floors[signal], law)?;
                 }
-                Predicted::Edges { initial, edges, .. } if beam_of(&subject.signals[signal]).is_none() => {
+                // When a beam is cut is known to where a part lay: not to the cycle in which a report is lost.
+                Predicted::Edges { initial, edges, .. } if law == Law::Away || !is_beam(subject, signal) => {
                     let sigma = run.edge_sigmas[signal];
                     let edges: Vec<(f64, usize, f64)> =
                         edges.iter().map(|edge| (edge.at, edge.index, edge.to)).collect();
                     match law {
-                        Law::Away => all.flag_away(track, *initial, &edges)?,
+                        Law::Away => all.flag_away(track, *initial, &edges, is_beam(subject, signal))?,
                         Law::Lost => all.flag_late(track, &edges, sigma, is_known)?,
                     }
                 }
@@ -127,7 +132,7 @@ impl Reading {
                 values.windows(2).filter(|pair| tells(pair)).count() >= 4 * LEAST_TELLING
             }
             (Some(_), Predicted::Edges { edges, .. }) => {
-                beam_of(&subject.signals[signal]).is_none() && edges.len() >= 8 * LEAST_EDGES
+                (law == Law::Away || !is_beam(subject, signal)) && edges.len() >= 8 * LEAST_EDGES
             }
             _ => false,
         };
@@ -195,8 +200,15 @@ impl Reading {
         Some(())
     }
 
-    /// A flag that is 0 where it is predicted to be 1, and never the other way round.
-    fn flag_away(&mut self, track: &Track, initial: f64, predicted: &[(f64, usize, f64)]) -> Option<()> {
+    /// A flag that is 0 where it is predicted to be 1, and never the other way round. Of a beam it is not known to the cycle when it is cut, so
+    /// that what is short and at an end of that is nothing.
+    fn flag_away(
+        &mut self,
+        track: &Track,
+        initial: f64,
+        predicted: &[(f64, usize, f64)],
+        is_beam: bool,
+    ) -> Option<()> {
         let count = track.grid.instants.len();
         let recorded = states(track.initial, track.edges.iter().map(|edge| (edge.index, edge.to)), count);
         let foreseen = states(initial, predicted.iter().map(|(_, index, to)| (*index, *to)), count);
@@ -204,10 +216,13 @@ impl Reading {
         let up: Vec<usize> = all().filter(|at| foreseen[*at] != 0.0).collect();
         let drawn: Vec<usize> = up.iter().copied().filter(|at| recorded[*at] == 0.0).collect();
         let wrong = all().filter(|at| foreseen[*at] == 0.0 && recorded[*at] != 0.0).count();
-        let stretches = stretches(&drawn);
+        let mut stretches = stretches(&drawn);
         let is_up = |at: Option<usize>| at.is_some_and(|at| (track.first..count).contains(&at) && foreseen[at] != 0.0);
         let begins_up = |from: usize| is_up(from.checked_sub(1));
         let ends_up = |to: usize| is_up(Some(to + 1));
+        if is_beam {
+            stretches.retain(|(from, to)| begins_up(*from) && ends_up(*to) || to - from >= WINDOW_CYCLES as usize);
+        }
         // Away and back again while nothing changes: what else would do that?
         let inner: Vec<&(usize, usize)> =
             stretches.iter().filter(|(from, to)| to > from && begins_up(*from) && ends_up(*to)).collect();
@@ -225,7 +240,7 @@ impl Reading {
             return None;
         }
         self.telling += up.len();
-        self.drawn += drawn.len();
+        self.drawn += stretches.iter().map(|(from, to)| to - from + 1).sum::<usize>();
         self.misfit += 24.0 * stretches.len() as f64;
         self.spans.extend(match window {
             Some(window) => vec![[window; 2]; stretches.len()],

@@ -1,7 +1,7 @@
 //! The devices that have a say in what is common to all: what of their levels moves, how that goes with the age of reports and with nominal
 //! parameters that may be off, and what they say together.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 
 use super::{EXPLAINED, LEAST_DEVICES, LEAST_SQUARE, MOST_AGE_S, NEARER, Task};
 use crate::effect::EffectError;
@@ -17,6 +17,8 @@ use crate::value::Quantity;
 const CENTRINGS: u32 = 6;
 const SHORTENINGS: u32 = 3;
 const FURTHEST: f64 = 3.0;
+/// How often levels are weighed anew by what is left of them.
+const WEIGHINGS: u32 = 3;
 /// By how many standard deviations a nominal parameter is moved to see how the samples move with it. What a whole one does is no slope:
 /// whether a ramp ends before the next command, and where all that follows is, may turn within it.
 const NUDGE: f64 = 0.02;
@@ -48,8 +50,14 @@ pub(super) struct Voter {
     pub columns: DMatrix<f64>,
     /// How far each second of age moves them, in floors.
     pub slopes: DVector<f64>,
-    /// Of the columns' squares, with what is known of the parameters beforehand.
-    known: Cholesky<f64, Dyn>,
+}
+
+/// What the nominal parameters can take of what is left of a device's levels.
+struct Taken {
+    /// By how many standard deviations further off each is for that.
+    by: DVector<f64>,
+    /// The same for each second of age.
+    by_age: DVector<f64>,
 }
 
 impl Voter {
@@ -63,7 +71,6 @@ impl Voter {
             strain: DVector::zeros(0),
             columns: DMatrix::zeros(0, 0),
             slopes: DVector::zeros(0),
-            known: Cholesky::pack_dirty(DMatrix::zeros(0, 0)),
             subject,
         };
         voter.kept = voter.moving(&nominal);
@@ -89,12 +96,12 @@ impl Voter {
         self.linearise(task)?;
         let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
             let rest = voter.rest(&under.predict(&[], &voter.overrides())?) + &voter.slopes * task.age_s;
-            let cost = rest.norm_squared() + voter.strain.norm_squared();
+            let cost = voter.squares(&rest).iter().map(|of| of.cost_at(0.0)).sum::<f64>() + voter.strain.norm_squared();
             Ok((rest, cost))
         };
         let (mut rest, mut cost) = left(self)?;
         for _ in 0..CENTRINGS {
-            let mut step = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+            let mut step = self.taken(&rest).by;
             let from = self.strain.clone();
             let before = cost;
             for _ in 0..SHORTENINGS {
@@ -131,11 +138,43 @@ impl Voter {
             let moved = self.rest(&under.predict(&[], &beside)?);
             self.columns.set_column(column, &((&base - &moved) / NUDGE));
         }
-        let squares = self.columns.transpose() * &self.columns + DMatrix::identity(self.free.len(), self.free.len());
-        if let Some(known) = squares.cholesky() {
-            self.known = known;
-        }
         Ok(())
+    }
+
+    /// What the nominal parameters can take of `rest` within what they may be off. Each level has a scale of error of its own: of an axis whose
+    /// position hangs on a play its force says what its mass is. Further off than that nobody builds: of an axis that goes the wrong way they
+    /// would be strained by thousands, and that would be all that anybody hears.
+    fn taken(&self, rest: &DVector<f64>) -> Taken {
+        let count = self.free.len();
+        let mut taken = Taken { by: DVector::zeros(count), by_age: DVector::zeros(count) };
+        for _ in 0..WEIGHINGS {
+            let squares = self.squares(&(rest - &self.columns * &taken.by));
+            let weight = |place: usize| {
+                let of = squares.iter().find(|of| of.place == place);
+                of.map_or(0.0, |of| 1.0 / (of.squares / of.count).max(1.0))
+            };
+            let weights = self.kept.iter().map(|(place, _)| weight(*place));
+            let mut weighed = self.columns.clone();
+            weighed.row_iter_mut().zip(weights).for_each(|(mut row, weight)| row *= weight);
+            let known = weighed.transpose() * &self.columns + DMatrix::identity(count, count);
+            let Some(known) = known.cholesky() else { break };
+            let by = &self.strain + known.solve(&(weighed.transpose() * rest - &self.strain));
+            taken.by = by.map(|strain| strain.clamp(-FURTHEST, FURTHEST)) - &self.strain;
+            taken.by_age = known.solve(&(weighed.transpose() * &self.slopes));
+        }
+        taken
+    }
+
+    /// The squares of `rest`, by level.
+    fn squares(&self, rest: &DVector<f64>) -> Vec<Sums> {
+        let of = |place: usize| Sums { place, ..Sums::default() };
+        let mut signals: Vec<Sums> = (0..self.subject.signals.len()).map(of).collect();
+        for ((place, _), rest) in self.kept.iter().zip(rest.iter()) {
+            signals[*place].squares += rest * rest;
+            signals[*place].count += self.subject.runs[0].floors[*place].share();
+        }
+        signals.retain(|of| of.count > 0.0);
+        signals
     }
 
     /// The nominal parameters as they are taken to be.
@@ -206,7 +245,7 @@ impl Voter {
     pub fn has_explained_signal(&self, task: Task) -> Result<bool, EffectError> {
         let squares = |under: &Subject, age_s: f64| -> Result<Vec<f64>, EffectError> {
             let rest = self.rest(&under.predict(&[], &self.overrides())?) + &self.slopes * age_s;
-            let rest = &rest - &self.columns * self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
+            let rest = &rest - &self.columns * self.taken(&rest).by;
             let mut sums = vec![0.0; self.subject.signals.len()];
             self.kept.iter().zip(rest.iter()).for_each(|((place, _), rest)| sums[*place] += rest * rest);
             Ok(sums)
@@ -236,24 +275,18 @@ impl Voter {
     pub fn moments(&self, task: Option<Task>) -> Result<Moments, EffectError> {
         let under = task.map_or_else(|| self.subject.clone(), |task| self.under(task));
         let (rest, slopes) = (self.rest(&under.predict(&[], &self.overrides())?), &self.slopes);
-        // What the nominal parameters can take of them within their tolerances is taken off. Further off nobody builds: of an axis that goes the
-        // wrong way they would be strained by thousands, and that would be all that anybody hears.
-        let taken = self.known.solve(&(self.columns.transpose() * &rest - &self.strain));
-        let taken = (&self.strain + taken).map(|strain| strain.clamp(-FURTHEST, FURTHEST)) - &self.strain;
-        let taken_slopes = self.known.solve(&(self.columns.transpose() * slopes));
-        let (rest, slopes) = (rest - &self.columns * &taken, slopes - &self.columns * &taken_slopes);
-        let of = |place: usize| Sums { place, ..Sums::default() };
-        let mut signals: Vec<Sums> = (0..self.subject.signals.len()).map(of).collect();
+        // What the nominal parameters can take of them within their tolerances is taken off.
+        let taken = self.taken(&rest);
+        let (rest, slopes) = (rest - &self.columns * &taken.by, slopes - &self.columns * &taken.by_age);
+        let mut signals = self.squares(&rest);
         for ((place, _), (rest, slope)) in self.kept.iter().zip(rest.iter().zip(slopes.iter())) {
-            let of = &mut signals[*place];
-            of.squares += rest * rest;
-            of.slopes += slope * slope;
-            of.products += rest * slope;
-            of.count += self.subject.runs[0].floors[*place].share();
+            if let Some(of) = signals.iter_mut().find(|of| of.place == *place) {
+                of.slopes += slope * slope;
+                of.products += rest * slope;
+            }
         }
-        signals.retain(|of| of.count > 0.0);
         // What they are strained by for that.
-        let (strain, by_age) = (&self.strain + &taken, taken_slopes);
+        let (strain, by_age) = (&self.strain + &taken.by, taken.by_age);
         let strained = Sums {
             squares: strain.norm_squared(),
             slopes: by_age.norm_squared(),
@@ -286,6 +319,11 @@ impl Sums {
     fn at(&self, age: f64) -> f64 {
         (self.squares + 2.0 * age * self.products + age * age * self.slopes).max(0.0)
     }
+
+    /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, its scale being its own.
+    fn cost_at(&self, age: f64) -> f64 {
+        self.count * (LEAST_SQUARE + self.at(age) / self.count).ln()
+    }
 }
 
 /// What is left of each level of a device, and how far its nominal parameters are strained for that. Each level has a scale of its own: one axis
@@ -311,8 +349,7 @@ impl Moments {
 
     /// −2 ln of the likelihood of what is left of reports that are so old, but for a constant, with scales of their own.
     pub fn cost(&self, age: f64) -> f64 {
-        let of = |of: &Sums| of.count * (LEAST_SQUARE + of.at(age) / of.count).ln();
-        self.signals.iter().map(of).sum::<f64>() + self.strained.at(age)
+        self.signals.iter().map(|of| of.cost_at(age)).sum::<f64>() + self.strained.at(age)
     }
 }
 

@@ -7,6 +7,9 @@ use crate::switch::Delay;
 /// A filter's output is known at these steps, s.
 const FINE: f64 = 1e-4;
 
+/// What is refreshed more often is not held, s: it would take longer to say than to run.
+const SHORTEST_HOLD: f64 = 1e-6;
+
 /// A signal as points in time. Between two points an edge holds, a level is on the line between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stream {
@@ -105,6 +108,9 @@ impl Stream {
 
     /// Refreshed at multiples of `time` behind `phase`, when it is not missed; before that it is as at the start.
     fn held(self, time: f64, phase: f64, end: f64, mut is_fresh: impl FnMut(f64) -> bool) -> Stream {
+        if time < SHORTEST_HOLD {
+            return self;
+        }
         let mut out = Stream::new(true);
         out.push(0.0, self.at(0.0));
         for k in 0..=(end / time) as usize {

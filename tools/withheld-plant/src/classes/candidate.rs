@@ -24,6 +24,8 @@ const fn also(effect: &'static str, place: &'static str, laws: &'static [Law]) -
 const STRENGTHS: [f64; 10] = [3e-6, 2e-5, 1e-4, 5e-4, 2e-3, 8e-3, 0.03, 0.1, 0.35, 1.0];
 const WEAKEST: f64 = 1e-7;
 const STRONGEST: f64 = 5.0;
+/// The same of a time: as long as a recording, or longer.
+const NEVER: f64 = 500.0;
 
 /// A parameter that is to be found.
 #[derive(Clone, Debug)]
@@ -208,8 +210,13 @@ fn free(law: &Law, scale: f64) -> Option<Free> {
         let range = (middle - STRONGEST * most, middle + STRONGEST * most);
         Some(Free { name, is_log: false, starts, range, small: 1e-5 * most })
     };
-    let grows =
-        |name, most: f64| log(name, STRENGTHS.iter().map(|s| most * s).collect(), most * WEAKEST, most * STRONGEST);
+    let grows = |name, most: f64| {
+        // What comes late by longer than it stands never comes.
+        let is_time = ["time", "time_constant"].contains(&name);
+        let strongest = if is_time { NEVER } else { STRONGEST };
+        let starts = STRENGTHS.iter().copied().chain(is_time.then_some(NEVER)).map(|s| most * s);
+        log(name, starts.collect(), most * WEAKEST, most * strongest)
+    };
     match *law {
         Law::Grows(name, most) => grows(name, scale * most),
         Law::Share(name, most) => grows(name, most),
