@@ -25,12 +25,18 @@ pub(super) fn told_beside(beside: &Beside, way: &Way, mut script: Script) -> Scr
     for cut in script.cuts.iter().filter(|cut| cut.ahead == 0.0) {
         let Some(metres) = unseen_way(beside, cut) else { continue };
         let gone = |at: f64| cut.way * (way.at(cut.from) - way.at(at));
-        if let Some(since) = first(0.0, cut.from, |before| gone(cut.from - before) >= metres) {
-            changes.extend([(cut.from - since, 1), (cut.from, -1)]);
-            put.push(cut.from - since);
+        let since = || {
+            let before = first(0.0, cut.from, |before| gone(cut.from - before) >= metres)?;
+            (metres > 0.0).then_some(cut.from - before)
+        };
+        if let Some(since) = due_by(beside, cut, &put, &|at| gone(at) - metres).or_else(since) {
+            changes.extend([(since, 1), (cut.from, -1)]);
+            put.push(since);
         }
     }
-    changes.extend(put_unseen(beside, way, &script, put).into_iter().map(|at| (at, 1)));
+    for (at, left) in put_unseen(beside, way, &script, put) {
+        changes.extend([(at, 1)].into_iter().chain(left.map(|left| (left, -1))));
+    }
     changes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut held = 0;
     script.told.extend(changes.into_iter().map(|(at, by)| {
@@ -39,6 +45,16 @@ pub(super) fn told_beside(beside: &Beside, way: &Way, mut script: Script) -> Scr
     }));
     script.told.sort_by(|a, b| a.at.total_cmp(&b.at));
     script
+}
+
+/// When the bay put a part that a beam saw first, s: the last time that one was due which is not among `put`, from where the belt took it about
+/// as far as the beam is, however often it turned on the way. `beyond`: how much further it took one that was put at an instant, m.
+fn due_by(beside: &Beside, cut: &Cut, put: &[f64], beyond: &dyn Fn(f64) -> f64) -> Option<f64> {
+    /// By how much a part may be off where the belt's reports have it, m.
+    const OFF_M: f64 = 0.05;
+    beside.fed.filter(|_| cut.way > 0.0)?;
+    let is_it = |at: &&f64| **at <= cut.from && !put.contains(*at) && beyond(**at).abs() < OFF_M;
+    beside.due.iter().rev().find(is_it).copied()
 }
 
 /// The first instant between two, to a step, at which something is so.
@@ -80,28 +96,37 @@ fn stand_before_a_beam(beside: &Beside, way: &Way, script: &Script) -> Vec<f64> 
     seen
 }
 
-/// When the bay put each part that no beam has seen by the recording's end, s: when it was due, its place was free, and the belt did not bring
-/// it as far as a beam since. `put`: when those were put that a beam has seen; where one of them was not due then, or there is none, the
-/// recording does not follow the bay's own schedule.
-fn put_unseen(beside: &Beside, way: &Way, script: &Script, mut put: Vec<f64>) -> Vec<f64> {
+/// When the bay put each part that no beam has seen by the recording's end, s, and when it left, if it did: when it was due, its place was free,
+/// and the belt did not bring it as far as a beam before it took it back over its start. `put`: when those were put that a beam has seen; where
+/// one of them was not due then, or there is none, the recording does not follow the bay's own schedule.
+fn put_unseen(beside: &Beside, way: &Way, script: &Script, put: Vec<f64>) -> Vec<(f64, Option<f64>)> {
     /// How far from its instant a part is told to have been put, s.
     const OFF_S: f64 = 0.5;
     let Some(fed) = beside.fed else { return Vec::new() };
     let beam = script.beams.iter().flatten().copied().filter(|beam| *beam > fed.at).reduce(f64::min);
     let Some(metres) = beam.map(|beam| beam - fed.at - 0.5 * fed.length) else { return Vec::new() };
     let ends = way.instants.last().copied().unwrap_or(0.0);
-    let is_near = |put: &[f64], at: f64| put.iter().any(|put| (put - at).abs() < OFF_S);
-    if put.is_empty() || !put.iter().all(|at| is_near(&beside.due, *at)) {
+    let is_near = |at: f64| put.iter().any(|put| (put - at).abs() < OFF_S);
+    if put.is_empty() || !put.iter().all(|at| beside.due.iter().any(|due| (due - at).abs() < OFF_S)) {
         return Vec::new();
     }
     let gone = |from: f64, to: f64| way.at(to) - way.at(from);
-    let mut unseen = Vec::new();
+    let is_open = matches!(beside.lane.ends[0], End::Open | End::Belt(_));
+    let mut unseen: Vec<(f64, Option<f64>)> = Vec::new();
     for &at in &beside.due {
-        let is_free = put.iter().all(|put| gone(*put, at).abs() >= fed.length);
-        let is_left = fed.limit.is_none_or(|limit| put.len() < limit);
-        if !is_near(&put, at) && is_free && is_left && gone(at, ends) < metres {
-            put.push(at);
-            unseen.push(at);
+        let is_there = |(_, left): &&(f64, Option<f64>)| left.is_none_or(|left| left > at);
+        let mut others = put.iter().chain(unseen.iter().filter(is_there).map(|(put, _)| put));
+        let is_free = others.all(|other| gone(*other, at).abs() >= fed.length);
+        let is_left = fed.limit.is_none_or(|limit| put.len() + unseen.len() < limit);
+        if is_near(at) || !is_free || !is_left {
+            continue;
+        }
+        let is_back = |now: f64| is_open && gone(at, now) <= -fed.at;
+        match first(at, ends, |now| gone(at, now) >= metres || is_back(now)) {
+            Some(left) if is_back(left) => unseen.push((at, Some(left))),
+            // It would have been seen.
+            Some(_) => {}
+            None => unseen.push((at, None)),
         }
     }
     unseen
@@ -116,7 +141,7 @@ fn unseen_way(beside: &Beside, cut: &Cut) -> Option<f64> {
         let centre = cut.front - 0.5 * cut.way * cut.length;
         if cut.way > 0.0 { centre } else { beside.lane.length - centre }
     });
-    [fed, from_belt].into_iter().flatten().find(|metres| *metres > 0.0)
+    [fed, from_belt].into_iter().flatten().find(|metres| *metres >= 0.0)
 }
 
 #[cfg(test)]
@@ -175,6 +200,42 @@ mod tests {
         assert_held(&held(&[0.5, 2.7], None), &[(1.3, 1), (2.0, 0)]);
         // At 1.88 s its place is taken, and what was put at 2.46 s would have been seen.
         assert_held(&held(&[1.3, 1.88, 2.46, 3.04, 3.62], None), &[(1.3, 1), (2.0, 0), (3.62, 1)]);
+    }
+
+    /// Of a belt that runs back for a second from 2 s on: one that was due just before that has left over the belt's start, and does not stand in
+    /// the way of the next; one that was due earlier was carried to the beam's side of its place first, and leaves a little later.
+    #[test]
+    fn what_a_belt_takes_back_over_its_start_weighs_until_then() {
+        let bay = TaskId { instance: 0, task: 0 };
+        let fed = Some(Fed { bay, at: 0.2, length: 0.3, is_along: true, limit: None });
+        let way = way();
+        let back = |at: &f64| if *at < 2.0 { 0.5 * at } else { 1.0 - 0.5 * (at - 2.0) };
+        let way = Way { metres: way.instants.iter().map(back).collect(), ..way };
+        let lane = Lane { length: 2.0, shares: false, ends: [End::Open, End::Open] };
+        let held = |due: &[f64]| {
+            let script =
+                Script { cuts: vec![Cut { from: 1.0, ..seen_at(0.7) }], beams: [Some(0.7), None], ..Script::default() };
+            let due = [&[0.3], due].concat();
+            told_beside(&Beside { fed, due, lane: Arc::new(lane.clone()), ..Beside::default() }, &way, script).told
+        };
+        assert_held(&held(&[2.1]), &[(0.3, 1), (1.0, 0), (2.1, 1), (2.5, 0)]);
+        assert_held(&held(&[1.9, 2.6]), &[(0.3, 1), (1.0, 0), (1.9, 1), (2.5, 0), (2.6, 1), (3.0, 0)]);
+    }
+
+    /// One that was put before its belt turned, and was seen when it had come back to where it was put; without its schedule nobody knows.
+    #[test]
+    fn what_was_put_before_the_belt_turned_weighs_from_then_on() {
+        let bay = TaskId { instance: 0, task: 0 };
+        let fed = Some(Fed { bay, at: 0.55, length: 0.3, is_along: true, limit: None });
+        let way = way();
+        let there = |at: &f64| if *at < 1.5 { -0.5 * at } else { 0.5 * at - 1.5 };
+        let way = Way { metres: way.instants.iter().map(there).collect(), ..way };
+        let held = |due: &[f64]| {
+            let script = Script { cuts: vec![seen_at(0.7)], beams: [Some(0.7), None], ..Script::default() };
+            told_beside(&Beside { fed, due: due.to_vec(), ..Beside::default() }, &way, script).told
+        };
+        assert_held(&held(&[0.0, 1.0]), &[(1.0, 1), (2.0, 0)]);
+        assert_held(&held(&[0.3]), &[]);
     }
 
     /// One that stood 0.8 m before its beam until the belt had brought it there weighs from the start on; one that came from elsewhere does not.

@@ -156,7 +156,9 @@ pub(super) fn find_beside_parameters(
     let near = NEAR_THE_KNOWN.map(|share| share * known_s).into_iter().filter(|filter_s| *filter_s > 0.0);
     let mut best = near.chain(TRIED_S).map(under).reduce(Tried::or)?;
     best = nearest(best, under);
-    if total(&before) - best.cost <= THRESHOLD {
+    // How long a filter is that is there is no further thing to be found.
+    let enough = if known_s > 0.0 { NEARER } else { THRESHOLD };
+    if total(&before) - best.cost <= enough {
         return None;
     }
     if have_levels.contains(&true) {

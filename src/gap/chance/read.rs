@@ -202,13 +202,7 @@ impl Reading {
 
     /// A flag that is 0 where it is predicted to be 1, and never the other way round. Of a beam it is not known to the cycle when it is cut, so
     /// that what is short and at an end of that is nothing.
-    fn flag_away(
-        &mut self,
-        track: &Track,
-        initial: f64,
-        predicted: &[(f64, usize, f64)],
-        is_beam: bool,
-    ) -> Option<()> {
+    fn flag_away(&mut self, track: &Track, initial: f64, predicted: &[(f64, usize, f64)], is_beam: bool) -> Option<()> {
         let count = track.grid.instants.len();
         let recorded = states(track.initial, track.edges.iter().map(|edge| (edge.index, edge.to)), count);
         let foreseen = states(initial, predicted.iter().map(|(_, index, to)| (*index, *to)), count);

@@ -116,7 +116,16 @@ impl Bench {
         let told = if design.is_connected() { &*built } else { design.machine() };
         let scripts =
             scripts.map(|part| record::heard(&told.program(part, &[], seed ^ part as u64, &mut dice), &known));
-        Bench { design, built, around, scripts, seed, tolerance, hidden: RefCell::default(), age_known: OnceCell::new() }
+        Bench {
+            design,
+            built,
+            around,
+            scripts,
+            seed,
+            tolerance,
+            hidden: RefCell::default(),
+            age_known: OnceCell::new(),
+        }
     }
 
     /// What all chance of a recording follows from.
