@@ -215,7 +215,8 @@ impl SignalScore {
         let sigmas: Vec<f64> = pairs.iter().map(sigma_of).collect();
         let predicted = with_pulses.as_deref().unwrap_or(predicted);
         let kept = pairs.iter().zip(&sigmas).map(|(pair, sigma)| edge(track, predicted, shifts, pair, *sigma));
-        let edges: Vec<EdgeScore> = kept.flatten().collect();
+        let mut edges: Vec<EdgeScore> = kept.flatten().collect();
+        weigh_turns(&mut edges);
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
         let count = errors.len().max(1) as f64;
@@ -263,6 +264,23 @@ fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge], track: &
             pairs.drain(at..at + 2);
         } else {
             at += 1;
+        }
+    }
+}
+
+/// Weighs predicted pulses that nobody recorded by how deep they go beside how well that is known. A part that comes to a beam and turns there is
+/// in it by v·T/4 at most, where it was at v at the beam and is back there after T, its speed changing evenly; where it is, is known to v·u with
+/// the edges' uncertainty u. So T/(4·u) standard deviations hide such a pulse.
+fn weigh_turns(edges: &mut [EdgeScore]) {
+    for at in 1..edges.len() {
+        let [on, off] = &mut edges[at - 1..=at] else { continue };
+        let both = on.predicted.zip(off.predicted).filter(|_| on.recorded.is_none() && off.recorded.is_none());
+        let Some(long) = both.map(|(from, until)| until - from).filter(|_| on.to != off.to) else { continue };
+        let deep = long / (4.0 * on.uncertainty.max(off.uncertainty));
+        let cost = (0.5 * deep * deep).min(cost::unmatched());
+        for edge in [on, off] {
+            edge.cost = edge.cost.min(cost);
+            edge.residual = edge.residual.signum() * edge.cost.sqrt();
         }
     }
 }
@@ -402,6 +420,31 @@ mod tests {
 
     /// Shown by one report, 30 µs after it came or before it went, or 4 ms after it came, which a filter may be; or by one that would not
     /// miss it; and by two.
+    /// A part that should turn in a beam for 0.4 s, its place known to what takes 0.05 s: two standard deviations hide that; one that
+    /// passes it is missed, and so is one that is recorded alone.
+    #[test]
+    fn how_deep_a_part_turns_in_a_beam_weighs_that_nobody_saw_it() {
+        let edge = |at: f64, to: f64, uncertainty: f64| EdgeScore {
+            to,
+            recorded: None,
+            predicted: Some(at),
+            error: 0.0,
+            uncertainty,
+            cost: cost::unmatched(),
+            residual: -cost::unmatched().sqrt(),
+        };
+        let cost_of = |mut edges: [EdgeScore; 2]| {
+            weigh_turns(&mut edges);
+            edges.iter().for_each(|edge| assert!((edge.residual + edge.cost.sqrt()).abs() < 1e-12));
+            edges[0].cost + edges[1].cost
+        };
+        assert!((cost_of([edge(3.0, 1.0, 0.05), edge(3.4, 0.0, 0.05)]) - 4.0).abs() < 1e-9);
+        assert_eq!(cost_of([edge(3.0, 1.0, 0.01), edge(3.4, 0.0, 0.01)]), 2.0 * cost::unmatched());
+        let mut recorded = [edge(3.0, 1.0, 0.05), EdgeScore { recorded: Some((3.3, 3.4)), ..edge(3.4, 0.0, 0.05) }];
+        weigh_turns(&mut recorded);
+        assert_eq!(recorded[0].cost, cost::unmatched());
+    }
+
     #[test]
     fn a_pulse_that_one_report_may_miss_is_no_difference() {
         assert_eq!(left_of(&[0.99997, 1.04, 1.96, 2.00003, 2.996, 3.03, 3.97, 4.03, 4.96, 5.07]), [6, 7, 8, 9]);

@@ -166,6 +166,10 @@ fn taken_out(
         if shown.is_empty() {
             return None;
         }
+        // Several that are away are so for another reason: a drive that does not start has no speed, and does not run.
+        if law == Law::Away && shown.len() > 1 {
+            return None;
+        }
         // Reports get lost of a whole link, a contact is one signal's.
         let readings = if law == Law::Lost && shown.len() > 1 { read_all(bare, true) } else { shown };
         let mut other = subject.clone();
