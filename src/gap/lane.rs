@@ -74,6 +74,8 @@ pub(super) struct Rider {
     pub beyond: f64,
     /// How fast this belt last carried it, m/s.
     pub speed: f64,
+    /// By how much its middle may be past the belt's end though it has not left, m: a beam sees it again.
+    pub past: f64,
 }
 
 /// What a belt does in a step.
@@ -94,7 +96,7 @@ const SHARED: u32 = 8;
 impl Lane {
     /// Whether a part that left an open end is here no more.
     pub fn has_left(&self, rider: &Rider) -> bool {
-        let at_end = self.ends[1] == End::Open && rider.centre > self.length && rider.gone > 0.0;
+        let at_end = self.ends[1] == End::Open && rider.centre > self.length + rider.past && rider.gone > 0.0;
         let at_start = self.ends[0] == End::Open && rider.centre < 0.0 && rider.gone < 0.0;
         rider.length.is_finite() && (at_end || at_start)
     }
@@ -275,7 +277,7 @@ mod tests {
     }
 
     fn rider(part: usize, centre: f64) -> Rider {
-        Rider { part, centre, length: 0.4, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0 }
+        Rider { part, centre, length: 0.4, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, past: 0.0 }
     }
 
     /// Where a part is that began at `centre` after so many seconds on a belt at 0.5 m/s, in steps of 20 ms.
@@ -339,5 +341,7 @@ mod tests {
         let gone = |centre: f64| Rider { gone: 0.5, ..rider(0, centre) };
         assert!(lane.has_left(&gone(2.001)) && !lane.has_left(&gone(1.999)));
         assert!(!lane.has_left(&Rider { length: f64::INFINITY, ..gone(2.5) }));
+        let back = |centre: f64| Rider { past: 0.02, ..gone(centre) };
+        assert!(lane.has_left(&back(2.021)) && !lane.has_left(&back(2.019)));
     }
 }

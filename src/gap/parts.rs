@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::lane::{End, Lane, Rider, Step};
 use super::track::Track;
-use super::world::{Cut, Script, Surrounding, Told};
+use super::world::{Cut, PAST_M, Script, Surrounding, Told};
 
 /// What of a belt's geometry its barriers see.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,7 +217,7 @@ fn comes_again(geometry: &Geometry, first: &Seen, left: &Left, cut: &Seen, trave
     let stays_on = |at: f64| {
         let centre = front + first.way * (gone(at) - 0.5 * left.length);
         let [start, end] = &geometry.lane.ends;
-        !(*start == End::Open && centre < 0.0 || *end == End::Open && centre > geometry.lane.length)
+        !(*start == End::Open && centre < 0.0 || *end == End::Open && centre > geometry.lane.length + PAST_M)
     };
     let steps = ((cut.from - left.at) / STEP_S).ceil().max(1.0);
     (0..=steps as u32).all(|step| stays_on(left.at + (cut.from - left.at) * f64::from(step) / steps))
@@ -372,7 +372,7 @@ fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> 
     const STEP_S: f64 = 0.02;
     let Some(front) = geometry.beams[cut.beam] else { return f64::INFINITY };
     let centre = front - 0.5 * cut.way * length;
-    let mut rider = Rider { part: 0, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0 };
+    let mut rider = Rider { part: 0, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, past: 0.0 };
     let steps = ((cut.to - cut.from) / STEP_S).ceil().max(1.0);
     let at = |step: f64| cut.from + (cut.to - cut.from) * step / steps;
     for step in 0..steps as u32 {
@@ -430,6 +430,9 @@ fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, scri
     let is_known = known_length(geometry, seen, part).is_some();
     let own = Cut { part, beam: cut.beam, from: first.from, ahead, front, way: first.way, length, is_known, taken };
     script.cuts.push(own);
+    if seen.iter().any(|other| other.again == Some(at)) {
+        script.back.push(part);
+    }
     // One that should have come to the other beam and did not is missed there.
     let is_alone = !seen.iter().any(|of| of.beam != cut.beam && of.part == cut.part);
     if let (true, true, Some(length), Some(between)) =
@@ -518,6 +521,21 @@ mod tests {
         assert_eq!(origins[0][2..], [Origin::Part(1); 2]);
         assert_eq!(origins[1], [Origin::Part(1); 2]);
         assert_eq!(script.cuts.len(), 3);
+    }
+
+    /// One that seems to have gone 10 mm past the end of the belt, and is in the last beam again when the belt has come back, has not left; 40 mm past
+    /// it, it has, and what comes is another.
+    #[test]
+    fn a_part_that_comes_back_from_the_end_had_not_left() {
+        let again = |turns: f64| {
+            let travel = move |at: f64| 0.5 * if at < turns { at } else { 2.0 * turns - at };
+            let (script, origins) =
+                of_rig_that(&travel, &[(1.01, 1.61)], &[(3.81, 4.41), (2.0 * turns - 4.41, 2.0 * turns - 3.81)]);
+            (script.back, origins[1].clone())
+        };
+        assert_eq!(again(4.73), (vec![0], vec![Origin::Part(0); 4]));
+        let (back, origins) = again(4.79);
+        assert!(back.is_empty() && origins[2] != Origin::Part(0), "{back:?} {origins:?}");
     }
 
     /// 10 mm before the end of the belt it may have left, and 11 cm before it not.

@@ -22,7 +22,12 @@ pub struct Script {
     pub(super) lane: Arc<Lane>,
     /// Where the beams are that the cuts were read from, m from the belt's start.
     pub beams: [Option<f64>; 2],
+    /// The parts that the belt brings back to a beam.
+    pub back: Vec<usize>,
 }
+
+/// By how much a part may seem to have gone past the belt's end that it brings back, m: as far as tolerances put where it is.
+pub(super) const PAST_M: f64 = 0.02;
 
 /// Whether two lengths of parts are one.
 pub(super) fn is_one_length(one: f64, other: f64) -> bool {
@@ -241,7 +246,8 @@ impl World {
         let mut news = false;
         while let Some(cut) = self.script.cuts.get(self.next_cut).filter(|cut| cut.from <= now) {
             self.active.push(self.moved(cut));
-            put_on(&mut self.riders, cut);
+            let past = if self.script.back.contains(&cut.part) { PAST_M } else { 0.0 };
+            put_on(&mut self.riders, cut, past);
             self.next_cut += 1;
             news = true;
         }
@@ -354,7 +360,7 @@ impl World {
 }
 
 /// Puts the part of a cut on the belt, if it is not there.
-fn put_on(riders: &mut Vec<Rider>, cut: &Cut) {
+fn put_on(riders: &mut Vec<Rider>, cut: &Cut, past: f64) {
     let centre = |length: f64| if length.is_finite() { cut.front - 0.5 * cut.way * length } else { cut.front };
     match riders.iter_mut().find(|rider| rider.part == cut.part) {
         // One of its cuts may say how long it is where the other does not.
@@ -366,7 +372,7 @@ fn put_on(riders: &mut Vec<Rider>, cut: &Cut) {
         None => {
             let (part, length) = (cut.part, cut.length);
             let centre = centre(length);
-            riders.push(Rider { part, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0 });
+            riders.push(Rider { part, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, past });
         }
     }
 }

@@ -561,7 +561,7 @@ mod tests {
     /// comes late by multiples of 5 ms is not away by windows.
     #[test]
     fn a_flag_that_is_up_for_few_windows_is_away_by_windows() {
-        let read = |late: &dyn Fn(usize) -> f64, is_away: &dyn Fn(usize) -> bool| {
+        let read_as = |late: &dyn Fn(usize) -> f64, is_away: &dyn Fn(usize) -> bool, is_beam: bool| {
             let mut flag = track(Vec::new());
             flag.grid = Arc::new(Grid::of_steps(0.01, 60.0));
             let index = |at: f64| (at / 0.01).ceil() as usize;
@@ -577,13 +577,17 @@ mod tests {
             let change = |at: &usize| state[*at] != state[at - 1];
             flag.edges = (1..6000).filter(change).map(|index| Edge { index, to: state[index] }).collect();
             let mut reading = Reading { cycle: 0.01, ..Reading::default() };
-            reading.flag_away(&flag, 0.0, &predicted).map(|()| reading)
+            reading.flag_away(&flag, 0.0, &predicted, is_beam).map(|()| reading)
         };
+        let read = |late: &dyn Fn(usize) -> f64, is_away: &dyn Fn(usize) -> bool| read_as(late, is_away, false);
         let by_windows = read(&|_| 0.0, &|window| (window * 7) % 10 < 3).expect("windows");
         let (least, share, most) = by_windows.share();
         assert!((by_windows.window().0 - 0.1).abs() < 1e-3, "{:?}", by_windows.window());
         assert!(least < 0.3 && 0.3 < most && (share - 0.3).abs() < 0.1, "{share}");
         assert!(read(&|k| 0.2 * ((k * 17) % 40) as f64 / 40.0, &|_| false).is_none());
+        // A part that comes to a beam up to 20 ms late is not away for that long.
+        let of_beam = read_as(&|k| 0.005 * (k % 5) as f64, &|window| (window * 7) % 10 < 3, true).expect("windows");
+        assert!((of_beam.window().0 - 0.1).abs() < 1e-3 && of_beam.drawn <= by_windows.drawn);
     }
 
     /// Of a flag that goes up at 10 and down at 50, and is away from 20 to 29, nothing but its two edges is left.

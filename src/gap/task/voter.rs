@@ -58,6 +58,8 @@ struct Taken {
     by: DVector<f64>,
     /// The same for each second of age.
     by_age: DVector<f64>,
+    /// Whether some would have to be further off than anybody builds.
+    is_far: bool,
 }
 
 impl Voter {
@@ -94,12 +96,21 @@ impl Voter {
     pub fn centre(&mut self, task: Task) -> Result<(), EffectError> {
         let under = self.under(task);
         self.linearise(task)?;
+        let rest_of = |voter: &Voter| -> Result<DVector<f64>, EffectError> {
+            Ok(voter.rest(&under.predict(&[], &voter.overrides())?) + &voter.slopes * task.age_s)
+        };
+        let mut rest = rest_of(self)?;
+        let is_far = self.taken(&rest).is_far;
+        let cost_of = |voter: &Voter, rest: &DVector<f64>| {
+            let by_level = || voter.squares(rest).iter().map(|of| of.cost_at(0.0)).sum::<f64>();
+            voter.strain.norm_squared() + if is_far { by_level() } else { rest.norm_squared() }
+        };
         let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
-            let rest = voter.rest(&under.predict(&[], &voter.overrides())?) + &voter.slopes * task.age_s;
-            let cost = voter.squares(&rest).iter().map(|of| of.cost_at(0.0)).sum::<f64>() + voter.strain.norm_squared();
+            let rest = rest_of(voter)?;
+            let cost = cost_of(voter, &rest);
             Ok((rest, cost))
         };
-        let (mut rest, mut cost) = left(self)?;
+        let mut cost = cost_of(self, &rest);
         for _ in 0..CENTRINGS {
             let mut step = self.taken(&rest).by;
             let from = self.strain.clone();
@@ -141,28 +152,36 @@ impl Voter {
         Ok(())
     }
 
-    /// What the nominal parameters can take of `rest` within what they may be off. Each level has a scale of error of its own: of an axis whose
-    /// position hangs on a play its force says what its mass is. Further off than that nobody builds: of an axis that goes the wrong way they
-    /// would be strained by thousands, and that would be all that anybody hears.
+    /// What the nominal parameters can take of `rest` within what they may be off. Where that, whatever the age of the reports, would be further than
+    /// anybody builds, each level has a scale of error of its own: of an axis that goes the wrong way they would be strained by thousands,
+    /// and that would be all that anybody hears; of one whose position hangs on a play its force says what its mass is.
     fn taken(&self, rest: &DVector<f64>) -> Taken {
         let count = self.free.len();
-        let mut taken = Taken { by: DVector::zeros(count), by_age: DVector::zeros(count) };
-        for _ in 0..WEIGHINGS {
-            let squares = self.squares(&(rest - &self.columns * &taken.by));
+        let mut weights = DVector::from_element(rest.len(), 1.0);
+        let mut all = self.columns.clone().insert_column(count, 0.0);
+        all.set_column(count, &-&self.slopes);
+        let mut strain = self.strain.clone().insert_row(count, 0.0);
+        let mut beforehand = DVector::from_element(count + 1, 1.0);
+        beforehand[count] = MOST_AGE_S.powi(-2);
+        let mut together = solved((&all, &weights), &beforehand, rest, &strain);
+        strain += &together;
+        let is_far = strain.rows(0, count).amax() > FURTHEST;
+        for _ in 0..if is_far { WEIGHINGS } else { 0 } {
+            let squares = self.squares(&(rest - &all * &together));
             let weight = |place: usize| {
                 let of = squares.iter().find(|of| of.place == place);
                 of.map_or(0.0, |of| 1.0 / (of.squares / of.count).max(1.0))
             };
-            let weights = self.kept.iter().map(|(place, _)| weight(*place));
-            let mut weighed = self.columns.clone();
-            weighed.row_iter_mut().zip(weights).for_each(|(mut row, weight)| row *= weight);
-            let known = weighed.transpose() * &self.columns + DMatrix::identity(count, count);
-            let Some(known) = known.cholesky() else { break };
-            let by = &self.strain + known.solve(&(weighed.transpose() * rest - &self.strain));
-            taken.by = by.map(|strain| strain.clamp(-FURTHEST, FURTHEST)) - &self.strain;
-            taken.by_age = known.solve(&(weighed.transpose() * &self.slopes));
+            weights.iter_mut().zip(&self.kept).for_each(|(own, (place, _))| *own = weight(*place));
+            together = solved((&all, &weights), &beforehand, rest, &self.strain.clone().insert_row(count, 0.0));
         }
-        taken
+        let beforehand = DVector::from_element(count, 1.0);
+        let columns = (&self.columns, &weights);
+        Taken {
+            by: solved(columns, &beforehand, rest, &self.strain),
+            by_age: solved(columns, &beforehand, &self.slopes, &DVector::zeros(count)),
+            is_far,
+        }
     }
 
     /// The squares of `rest`, by level.
@@ -295,6 +314,21 @@ impl Voter {
         };
         Ok(Moments { signals, strained })
     }
+}
+
+/// What takes the most of `rest`, by columns and how much each sample weighs; `beforehand`: what is known of each, 1/variance, and what it is off by
+/// (`strain`).
+fn solved(
+    (columns, weights): (&DMatrix<f64>, &DVector<f64>),
+    beforehand: &DVector<f64>,
+    rest: &DVector<f64>,
+    strain: &DVector<f64>,
+) -> DVector<f64> {
+    let mut weighed = columns.clone();
+    weighed.row_iter_mut().zip(weights.iter()).for_each(|(mut row, weight)| row *= *weight);
+    let known = weighed.transpose() * columns + DMatrix::from_diagonal(beforehand);
+    let of = weighed.transpose() * rest - strain.component_mul(beforehand);
+    known.cholesky().map_or_else(|| DVector::zeros(beforehand.len()), |known| known.solve(&of))
 }
 
 /// How steeply a level is predicted to change about a sample.
