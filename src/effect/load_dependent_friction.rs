@@ -35,10 +35,8 @@ impl Stage for LoadDependentFriction {
         Box::new(self.clone())
     }
 
-    /// Over a stretch it is what the drive's force was at its beginning: of a servo loop that is a millisecond wide that would be a fiftieth less
-    /// than it is.
     fn stretch(&self) -> f64 {
-        2.5e-4
+        1e-3
     }
 
     fn friction(&mut self, friction: Friction, _motion: Motion, effort: Effort) -> Friction {
