@@ -6,6 +6,8 @@ use super::layout::Beside;
 use super::way::Way;
 use super::world::{Cut, Script, Surrounding, Told};
 
+/// What touches a beam where it is put does so to rounding, m.
+const SAME_M: f64 = 1e-9;
 /// How finely it is told when a part came or left, s.
 const STEP_S: f64 = 0.01;
 
@@ -27,7 +29,7 @@ pub(super) fn told_beside(beside: &Beside, way: &Way, mut script: Script) -> Scr
         let gone = |at: f64| cut.way * (way.at(cut.from) - way.at(at));
         let since = || {
             let before = first(0.0, cut.from, |before| gone(cut.from - before) >= metres)?;
-            (metres > 0.0).then_some(cut.from - before)
+            (metres > SAME_M).then_some(cut.from - before)
         };
         if let Some(since) = due_by(beside, cut, &put, &|at| gone(at) - metres).or_else(since) {
             changes.extend([(since, 1), (cut.from, -1)]);
@@ -141,7 +143,7 @@ fn unseen_way(beside: &Beside, cut: &Cut) -> Option<f64> {
         let centre = cut.front - 0.5 * cut.way * cut.length;
         if cut.way > 0.0 { centre } else { beside.lane.length - centre }
     });
-    [fed, from_belt].into_iter().flatten().find(|metres| *metres >= 0.0)
+    [fed, from_belt].into_iter().flatten().find(|metres| *metres >= -SAME_M)
 }
 
 #[cfg(test)]

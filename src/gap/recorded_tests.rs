@@ -1,7 +1,7 @@
 //! Recordings as the tests of this module read them.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader};
 
 use super::{Recording, Study};
 use crate::device::KINDS;
@@ -20,8 +20,19 @@ pub fn rig() -> Plant {
 
 /// What a recording of it says of its devices.
 pub fn study(path: &str) -> Study {
+    study_of(path, BufReader::new(File::open(path).expect("the recording")))
+}
+
+/// The same of a trace by this name.
+pub fn study_of(name: &str, trace: impl BufRead) -> Study {
     let plant = rig();
-    let reader = Reader::new(path, BufReader::new(File::open(path).expect("the recording"))).expect("a trace");
-    let recording = Recording::read(&plant, path, reader, &[]).expect("a recording");
+    let reader = Reader::new(name, trace).expect("a trace");
+    let recording = Recording::read(&plant, name, reader, &[]).expect("a recording");
     Study::new(&plant, &[recording]).expect("a study")
+}
+
+/// The lines of a recording.
+pub fn text_of(path: &str) -> String {
+    let lines = zstd::decode_all(File::open(path).expect("the recording")).expect("a stream");
+    String::from_utf8(lines).expect("text")
 }

@@ -323,9 +323,32 @@ mod tests {
 
     use super::*;
     use crate::device::KINDS;
+    use crate::gap::recorded_tests::{RUBBING_AXIS, study_of, text_of};
     use crate::gap::{Overrides, Predicted, Recording, Study};
     use crate::plant::{self, embedded::Embedded};
     use crate::trace::Reader;
+
+    /// All that an axis reports has the wrong sign: what its nominal parameters would have to be for that is not all that anybody hears.
+    #[test]
+    fn an_axis_that_goes_the_wrong_way_does_not_drown_what_the_others_say() {
+        let mirrored = |line: &str| {
+            let mut line: serde_json::Value = serde_json::from_str(line).expect("a line");
+            let is_plants = line["from"] == "plant";
+            let entries = line.get_mut("SendValue").and_then(serde_json::Value::as_array_mut).filter(|_| is_plants);
+            for entry in entries.into_iter().flatten() {
+                let is_axis = entry["name"].as_str().is_some_and(|name| name.starts_with("Axis."));
+                if let Some(value) = entry["value"].as_f64().filter(|_| is_axis) {
+                    entry["value"] = (-value).into();
+                }
+            }
+            format!("{line}\n")
+        };
+        let text: String = text_of(RUBBING_AXIS).lines().map(mirrored).collect();
+        let task = study_of("mirrored", text.as_bytes()).tasks[0];
+        let known = study_of("as recorded", text_of(RUBBING_AXIS).as_bytes()).tasks[0];
+        assert_eq!((task.every_s, task.scatter_s), (known.every_s, 0.0), "{task:?}, not {known:?}");
+        assert!((task.phase_s - known.phase_s).abs() < 2e-5 && (task.age_s - known.age_s).abs() < 2e-5, "{task:?}");
+    }
 
     #[test]
     fn a_command_waits_for_the_task() {

@@ -160,12 +160,11 @@ impl Voter {
         let mut weights = DVector::from_element(rest.len(), 1.0);
         let mut all = self.columns.clone().insert_column(count, 0.0);
         all.set_column(count, &-&self.slopes);
-        let mut strain = self.strain.clone().insert_row(count, 0.0);
-        let mut beforehand = DVector::from_element(count + 1, 1.0);
-        beforehand[count] = MOST_AGE_S.powi(-2);
-        let mut together = solved((&all, &weights), &beforehand, rest, &strain);
-        strain += &together;
-        let is_far = strain.rows(0, count).amax() > FURTHEST;
+        let strain = self.strain.clone().insert_row(count, 0.0);
+        let mut known = DVector::from_element(count + 1, 1.0);
+        known[count] = MOST_AGE_S.powi(-2);
+        let mut together = solved((&all, &weights), &known, rest, &strain);
+        let is_far = (&strain + &together).rows(0, count).amax() > FURTHEST;
         for _ in 0..if is_far { WEIGHINGS } else { 0 } {
             let squares = self.squares(&(rest - &all * &together));
             let weight = |place: usize| {
@@ -173,7 +172,7 @@ impl Voter {
                 of.map_or(0.0, |of| 1.0 / (of.squares / of.count).max(1.0))
             };
             weights.iter_mut().zip(&self.kept).for_each(|(own, (place, _))| *own = weight(*place));
-            together = solved((&all, &weights), &beforehand, rest, &self.strain.clone().insert_row(count, 0.0));
+            together = solved((&all, &weights), &known, rest, &strain);
         }
         let beforehand = DVector::from_element(count, 1.0);
         let columns = (&self.columns, &weights);

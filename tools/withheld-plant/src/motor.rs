@@ -86,3 +86,25 @@ impl Device for Motor {
         self.tells_parts = true;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_encoder_tells_parts_of_a_count_where_it_is_asked_to() {
+        let mut motor = Motor::new(&MotorParameters { acceleration: 20.0, counts: 4096.0 }, &[], "Motor");
+        motor.command(0.0, "enable", 1.0);
+        motor.command(0.0, "speedTarget", 1.0);
+        (1..=600).for_each(|k| motor.advance(1e-4 * f64::from(k), 1e-4, 0));
+        let read = |motor: &Motor| {
+            let mut values = Vec::new();
+            motor.read(0.06, &mut values);
+            values[0]
+        };
+        let whole = read(&motor);
+        motor.tell_parts();
+        // 0.05 s up to 1 rad/s, and 0.01 s at it: 0.035 rad, and 22.8 counts.
+        assert!(whole == 22.0 && (read(&motor) - 0.035 / TAU * 4096.0).abs() < 1e-3, "{whole} {}", read(&motor));
+    }
+}

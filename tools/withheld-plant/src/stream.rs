@@ -239,6 +239,8 @@ mod tests {
         check("on-delay", &[("time", 0.1)], &[(0.0, 0.0), (2.1, 1.0), (3.0, 0.0)]);
         check("input-filter", &[("time_constant", 0.1)], &[(0.0, 0.0), (2.1, 1.0), (3.1, 0.0)]);
         check("stale-hold", &[("time", 0.7)], &[(0.0, 0.0), (2.1, 1.0), (3.5, 0.0)]);
+        // What is refreshed ten million times a second is not held, and ends within this life.
+        check("stale-hold", &[("time", 1e-7)], flag().points());
         check("stuck", &[("value", 1.0), ("from", 1.5)], &[(0.0, 0.0), (1.0, 1.0), (1.05, 0.0), (1.5, 1.0)]);
     }
 
