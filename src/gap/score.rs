@@ -418,8 +418,6 @@ mod tests {
         assert_eq!(left_of(&[1.0, 1.003, 2.01, 2.5]), [2, 3]);
     }
 
-    /// Shown by one report, 30 µs after it came or before it went, or 4 ms after it came, which a filter may be; or by one that would not
-    /// miss it; and by two.
     /// A part that should turn in a beam for 0.4 s, its place known to what takes 0.05 s: two standard deviations hide that; one that
     /// passes it is missed, and so is one that is recorded alone.
     #[test]
@@ -445,6 +443,8 @@ mod tests {
         assert_eq!(recorded[0].cost, cost::unmatched());
     }
 
+    /// Shown by one report, 30 µs after it came or before it went, or 4 ms after it came, which a filter may be; or by one that would not
+    /// miss it; and by two.
     #[test]
     fn a_pulse_that_one_report_may_miss_is_no_difference() {
         assert_eq!(left_of(&[0.99997, 1.04, 1.96, 2.00003, 2.996, 3.03, 3.97, 4.03, 4.96, 5.07]), [6, 7, 8, 9]);

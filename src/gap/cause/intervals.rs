@@ -8,12 +8,12 @@ use crate::gap::SignalScore;
 use crate::gap::fit::{Interval, Side, Slopes, least_squares_from, profile};
 
 /// The rise of the deviance that an interval of 95 % ends at, were what correlated residuals exaggerate known: 3.84. It is estimated from
-/// some dozen blocks of time, and of 60 clear effects of plants with equations of their own 53 lay within. A tenth further, 58 did.
+/// some dozen blocks of time, and of 63 parameters of clear effects of plants with equations of their own 56 lay within. A tenth further, 60 do.
 const RISE: f64 = 1.1 * 1.1 * 3.84;
 /// How far a parameter may be off for what a law leaves out of the machine, as a share of itself, in an interval of 95 %: what evaluation by
 /// other means than statistics adds (JCGM 100:2008, 4.3). Of gross effects the noise alone leaves as little as some millionths. (Plants with
 /// equations of their own, friction with bristles and two masses on a spring among them, gave springs 0.5 to 0.9 per mille off where it
-/// left 0.3 to 0.6, and frictions and belts under load 2 to 9 per mille.)
+/// left 0.3 to 0.6, and frictions and belts under load 2 to 14 per mille.)
 const OF_THE_LAW: f64 = 5e-3;
 
 /// A parameter of an effect with its interval.
