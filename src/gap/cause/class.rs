@@ -78,20 +78,16 @@ fn answer(
 ) -> Answer {
     let best = &ladder.best;
     let named = &best.set[place];
-    let others = if best.set.len() == 1 {
+    let mut others = if best.set.len() == 1 {
         ladder.singles.clone()
     } else {
         let without = without(bench, best, place);
         let is_near = |candidate: &Candidate| ladder.near.iter().any(|near| near.is_same(candidate));
-        let others = without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost, is_asked, &is_near, tell));
-        refitted(bench, best, named, others)
+        without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost, is_asked, &is_near, tell))
     };
+    others.retain(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)));
     let inflation = best.inflation();
-    let near: Vec<Trial> = others
-        .into_iter()
-        .filter(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)))
-        .filter(|trial| trial.cost - best.cost < NEAR * inflation)
-        .collect();
+    let near = near(bench, best, others);
     let mut alternatives: Vec<Alternative> =
         near.into_par_iter().filter_map(|trial| alternative(bench, best, named, trial)).collect();
     alternatives.sort_by(|a, b| b.is_same.cmp(&a.is_same).then(a.trial.cost.total_cmp(&b.trial.cost)));
@@ -107,16 +103,18 @@ fn answer(
     weigh(bench, ladder, Answer { place, weight: 0.0, alternatives })
 }
 
-/// Those of `others` that are not near `best` with the effects beside them fitted anew, as far as they are the first: what is told of a play by a gain
-/// that is too small is a smaller play behind a scale that is.
-fn refitted(bench: &Bench<'_>, best: &Trial, named: &Candidate, mut others: Vec<Trial>) -> Vec<Trial> {
-    others.retain(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)));
-    others.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let near = others.partition_point(|trial| trial.cost - best.cost < NEAR * best.inflation());
-    let further: Vec<Trial> = others.drain(near..).take(REFITTED).collect();
-    let anew = |trial: &Trial| bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len()));
-    others.extend(further.par_iter().filter_map(anew).collect::<Vec<_>>());
-    others
+/// Those of `others` that cost little more than `best`. Where that is of several effects, so do some whose other effects are fitted anew: what is told
+/// of a play by a gain that is too small is a smaller play behind a scale that is.
+fn near(bench: &Bench<'_>, best: &Trial, others: Vec<Trial>) -> Vec<Trial> {
+    let is_near = |trial: &Trial| trial.cost - best.cost < NEAR * best.inflation();
+    let (mut near, mut further): (Vec<Trial>, Vec<Trial>) = others.into_iter().partition(is_near);
+    if best.set.len() > 1 {
+        further.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        further.truncate(REFITTED);
+        let anew = |trial: &Trial| bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len()));
+        near.extend(further.par_iter().filter_map(anew).filter(is_near).collect::<Vec<_>>());
+    }
+    near
 }
 
 /// Whether one of the two is an effect of a link as a whole and the other the same of one of its signals.

@@ -61,6 +61,11 @@ fn is_beam(subject: &Subject, signal: usize) -> bool {
 }
 
 impl Law {
+    /// Whether a flag could show it: when a beam is cut is known to where a part lay, and not to the cycle in which a report is lost.
+    fn shows_in(self, subject: &Subject, signal: usize) -> bool {
+        self == Law::Away || !is_beam(subject, signal)
+    }
+
     pub fn id(self) -> &'static str {
         match self {
             Law::Away => "intermittent",
@@ -93,8 +98,7 @@ impl Reading {
                     let half = if subject.signals[signal].is_count { 0.5 } else { 0.0 };
                     all.level(track, values, half, &run.floors[signal], law)?;
                 }
-                // When a beam is cut is known to where a part lay: not to the cycle in which a report is lost.
-                Predicted::Edges { initial, edges, .. } if law == Law::Away || !is_beam(subject, signal) => {
+                Predicted::Edges { initial, edges, .. } if law.shows_in(subject, signal) => {
                     let sigma = run.edge_sigmas[signal];
                     let edges: Vec<(f64, usize, f64)> =
                         edges.iter().map(|edge| (edge.at, edge.index, edge.to)).collect();
@@ -132,7 +136,7 @@ impl Reading {
                 values.windows(2).filter(|pair| tells(pair)).count() >= 4 * LEAST_TELLING
             }
             (Some(_), Predicted::Edges { edges, .. }) => {
-                (law == Law::Away || !is_beam(subject, signal)) && edges.len() >= 8 * LEAST_EDGES
+                law.shows_in(subject, signal) && edges.len() >= 8 * LEAST_EDGES
             }
             _ => false,
         };

@@ -102,7 +102,7 @@ impl Voter {
         let mut rest = rest_of(self)?;
         let is_far = self.taken(&rest).is_far;
         let cost_of = |voter: &Voter, rest: &DVector<f64>| {
-            let by_level = || voter.squares(rest).iter().map(|of| of.cost_at(0.0)).sum::<f64>();
+            let by_level = || voter.sums(rest, &voter.slopes).iter().map(|of| of.cost_at(0.0)).sum::<f64>();
             voter.strain.norm_squared() + if is_far { by_level() } else { rest.norm_squared() }
         };
         let left = |voter: &Voter| -> Result<(DVector<f64>, f64), EffectError> {
@@ -165,10 +165,11 @@ impl Voter {
         known[count] = MOST_AGE_S.powi(-2);
         let mut together = solved((&all, &weights), &known, rest, &strain);
         let is_far = (&strain + &together).rows(0, count).amax() > FURTHEST;
-        for _ in 0..if is_far { WEIGHINGS } else { 0 } {
-            let squares = self.squares(&(rest - &all * &together));
+        let weighings = if is_far { WEIGHINGS } else { 0 };
+        for _ in 0..weighings {
+            let sums = self.sums(&(rest - &all * &together), &self.slopes);
             let weight = |place: usize| {
-                let of = squares.iter().find(|of| of.place == place);
+                let of = sums.iter().find(|of| of.place == place);
                 of.map_or(0.0, |of| 1.0 / (of.squares / of.count).max(1.0))
             };
             weights.iter_mut().zip(&self.kept).for_each(|(own, (place, _))| *own = weight(*place));
@@ -183,13 +184,16 @@ impl Voter {
         }
     }
 
-    /// The squares of `rest`, by level.
-    fn squares(&self, rest: &DVector<f64>) -> Vec<Sums> {
+    /// The squares of `rest`, by level, and how they go with the age of the reports.
+    fn sums(&self, rest: &DVector<f64>, slopes: &DVector<f64>) -> Vec<Sums> {
         let of = |place: usize| Sums { place, ..Sums::default() };
         let mut signals: Vec<Sums> = (0..self.subject.signals.len()).map(of).collect();
-        for ((place, _), rest) in self.kept.iter().zip(rest.iter()) {
-            signals[*place].squares += rest * rest;
-            signals[*place].count += self.subject.runs[0].floors[*place].share();
+        for ((place, _), (rest, slope)) in self.kept.iter().zip(rest.iter().zip(slopes.iter())) {
+            let of = &mut signals[*place];
+            of.squares += rest * rest;
+            of.slopes += slope * slope;
+            of.products += rest * slope;
+            of.count += self.subject.runs[0].floors[*place].share();
         }
         signals.retain(|of| of.count > 0.0);
         signals
@@ -296,13 +300,7 @@ impl Voter {
         // What the nominal parameters can take of them within their tolerances is taken off.
         let taken = self.taken(&rest);
         let (rest, slopes) = (rest - &self.columns * &taken.by, slopes - &self.columns * &taken.by_age);
-        let mut signals = self.squares(&rest);
-        for ((place, _), (rest, slope)) in self.kept.iter().zip(rest.iter().zip(slopes.iter())) {
-            if let Some(of) = signals.iter_mut().find(|of| of.place == *place) {
-                of.slopes += slope * slope;
-                of.products += rest * slope;
-            }
-        }
+        let signals = self.sums(&rest, &slopes);
         // What they are strained by for that.
         let (strain, by_age) = (&self.strain + &taken.by, taken.by_age);
         let strained = Sums {
