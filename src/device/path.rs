@@ -169,8 +169,9 @@ pub trait Stage: Send + Sync + fmt::Debug {
         friction
     }
 
-    /// How much its sliding [`friction`](Stage::friction) may change with the motion, N or N·m: 0 where it does not.
-    fn uneven(&self) -> f64 {
+    /// How much its sliding [`friction`](Stage::friction) may change with the motion, or with an effort such as this, N or N·m: 0
+    /// where it does not.
+    fn uneven(&self, _effort: Effort) -> f64 {
         0.0
     }
 
@@ -291,8 +292,8 @@ impl Path {
     }
 
     /// See [`Stage::uneven`]; of all stages together.
-    pub fn uneven(&self) -> f64 {
-        self.stages.iter().map(|stage| stage.uneven()).sum()
+    pub fn uneven(&self, effort: Effort) -> f64 {
+        self.stages.iter().map(|stage| stage.uneven(effort)).sum()
     }
 
     /// See [`Stage::burden`].

@@ -1,7 +1,7 @@
 //! A servo axis with what stands in its signal path: friction as a set-valued law, loads, limits, and a transmission.
 //!
 //! Over a stretch the sliding friction is a constant force against the motion, so that the loop's own law stays exact; where
-//! the motion comes to rest the stretch is cut. A friction that changes with speed or place is that of the stretch's middle,
+//! the motion comes to rest the stretch is cut. A friction that changes with speed, place or effort is that of the stretch's middle,
 //! and where it changes much the stretch is shorter (the explicit midpoint rule, of second order; E. Hairer, S. P. Nørsett, G. Wanner,
 //! Solving Ordinary Differential Equations I, Springer 1993, section II.1).
 //!
@@ -118,7 +118,7 @@ impl Way<'_> {
             mover
         };
         let mut span = moment.span;
-        let uneven = stages.mechanics.uneven();
+        let uneven = stages.mechanics.uneven(at_first);
         if uneven > 0.0 {
             (friction, span) = loop {
                 let mut halfway = moved_against(friction);

@@ -39,6 +39,10 @@ impl Stage for LoadDependentFriction {
         1e-3
     }
 
+    fn uneven(&self, effort: Effort) -> f64 {
+        self.coefficient * effort.transmitted
+    }
+
     fn friction(&mut self, friction: Friction, _motion: Motion, effort: Effort) -> Friction {
         let more = self.coefficient * effort.transmitted;
         let Friction { sliding, sticking, viscous } = friction;
@@ -51,6 +55,7 @@ impl Stage for LoadDependentFriction {
 #[cfg(test)]
 mod tests {
     use crate::effect::bench::{spec, with};
+    use crate::plant::EffectSpec;
 
     fn axis(load: &str) -> crate::device::bench::Bench {
         let friction = spec("mechanics", "load-dependent-friction", None, &[("coefficient", 0.1)]);
@@ -63,6 +68,21 @@ mod tests {
         let velocity = |force: f64| force / 50.0 * (1.0 - (-2.5_f64).exp());
         axis("0").check(&[("forceTarget", 100.0)], 1.0, &[("velocity", velocity(90.0))]);
         axis("50").check(&[("forceTarget", 100.0)], 1.0, &[("velocity", velocity(35.0))]);
+    }
+
+    /// What rubs goes by the force of a loop that settles within milliseconds: how finely the way is told makes no difference to that.
+    #[test]
+    fn a_force_that_changes_fast_rubs_as_it_is_and_not_as_it_was() {
+        let way = |effects: &[EffectSpec], steps: u32| {
+            let mut axis = with("ServoAxis", &[], effects);
+            axis.check(&[("positionTarget", 0.5)], 0.0, &[]);
+            (0..steps).for_each(|_| axis.device.advance(0.05 / f64::from(steps)));
+            axis.report("position")
+        };
+        let rubs = [spec("mechanics", "load-dependent-friction", None, &[("coefficient", 0.1)])];
+        let (free, fine, told) = (way(&[], 1), way(&rubs, 50_000), way(&rubs, 1));
+        let off = (told - fine) / (free - fine);
+        assert!((free - fine).abs() > 1e-4 && off.abs() < 1e-3, "{off} of {} m", free - fine);
     }
 
     #[test]

@@ -48,7 +48,7 @@ impl Stage for PositionDependentFriction {
         1e-3
     }
 
-    fn uneven(&self) -> f64 {
+    fn uneven(&self, _effort: Effort) -> f64 {
         self.amplitude
     }
 

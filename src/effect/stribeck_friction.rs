@@ -41,7 +41,7 @@ impl Stage for StribeckFriction {
         1e-3
     }
 
-    fn uneven(&self) -> f64 {
+    fn uneven(&self, _effort: Effort) -> f64 {
         self.force
     }
 

@@ -1,6 +1,6 @@
 //! The class of effects that a recording cannot tell apart, as the independent plants computed it, beside the class that was named.
 
-use super::answer::{Answer, ClassMember};
+use super::answer::{Answer, ClassMember, TrueEffect};
 use crate::gap::report::{Cause, Member, Report, Verdict};
 
 /// The id of a nominal parameter that is wrong.
@@ -11,6 +11,34 @@ const PARAMETER_ERROR: &str = "parameter-error";
 pub fn answers(class: &[ClassMember]) -> Vec<&ClassMember> {
     let effects: Vec<&ClassMember> = class.iter().filter(|member| member.effect != PARAMETER_ERROR).collect();
     if effects.is_empty() { class.iter().collect() } else { effects }
+}
+
+/// What a nominal parameter's name begins with, before its axis, and the effect at its place that a lower or a higher value of it is: permanent
+/// classes of the diagnosis.
+const PERMANENT: [(&str, &str, &str); 5] = [
+    ("maxVelocity", "velocity-limit", "actuator"),
+    ("maxAcceleration", "acceleration-limit", "actuator"),
+    ("acceleration", "acceleration-limit", "actuator"),
+    ("buildUpTime", "vacuum-build-up", "process"),
+    ("Fv", "viscous-friction", "mechanics"),
+];
+
+/// Whether one of two is a nominal parameter that, for every recording, is another name of the other: where no class was computed, as of two
+/// effects at once, this is known of it.
+pub fn is_another_name(truth: &TrueEffect, member: &Member) -> bool {
+    let is = |parameter: Option<&str>, (effect, place, axis): (&str, &str, Option<&str>)| {
+        PERMANENT.iter().any(|(stem, of, at)| {
+            let rest = parameter.and_then(|parameter| parameter.strip_prefix(stem));
+            (effect, place) == (*of, *at) && rest == Some(axis.unwrap_or_default())
+        })
+    };
+    let (one, other) = (truth.component.as_deref(), member.component.as_deref());
+    let named = match (truth.effect == PARAMETER_ERROR, member.effect == PARAMETER_ERROR) {
+        (true, false) => is(one, (&member.effect, member.place.name(), other)),
+        (false, true) => is(other, (&truth.effect, &truth.place, one)),
+        _ => false,
+    };
+    truth.device == member.device && named
 }
 
 /// Whether `report` says of `answer`, whose class is known, just what can be known of it: one cause; a sure `effect` where nothing else
@@ -34,7 +62,7 @@ pub fn is_just(answer: &Answer, report: &Report) -> bool {
 }
 
 /// A cause as a member, its parameter's name as its component.
-fn named(cause: &Cause) -> Member {
+pub fn named(cause: &Cause) -> Member {
     let member = cause.member();
     match cause.texts.get("parameter") {
         Some(parameter) => Member { component: Some(parameter.clone()), ..member },

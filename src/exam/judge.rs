@@ -153,9 +153,10 @@ fn devices_are_right(truths: &[TrueEffect], report: &Report) -> bool {
 }
 
 fn of_class(cause: &Cause, truth: &TrueEffect) -> bool {
-    let parameter = cause.texts.get("parameter").map(String::as_str);
-    is_same(truth, &cause.device, parameter.or(cause.component.as_deref()), &cause.effect)
-        && at_place(truth, &cause.member())
+    let own = class::named(cause);
+    let stands = is_same(truth, &own.device, own.component.as_deref(), &own.effect) && at_place(truth, &own);
+    stands
+        || class::is_another_name(truth, &own)
         || cause.class.iter().any(|member| {
             is_same(truth, &member.device, member.component.as_deref(), &member.effect) && at_place(truth, member)
         })

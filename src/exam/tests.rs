@@ -97,6 +97,34 @@ fn a_class_that_holds_the_truth_is_right_and_both_of_two_must_be_found() {
 }
 
 #[test]
+fn a_limit_is_another_name_of_a_lowered_greatest() {
+    let of = |component: &str, effect: &str, place: &str| TrueEffect {
+        component: Some(component.to_owned()),
+        ..truth("Robot", effect, place)
+    };
+    let check = |true_one: TrueEffect, component: &str, named: (&'static str, EffectPlace), is_right: bool| {
+        let two = answer("2", Sort::TwoOnOneDevice, Magnitude::Clear, vec![true_one]);
+        let mut report = report(Verdict::Effect, &[("Robot", named.0, named.1)]);
+        match named.0 {
+            "parameter-error" => drop(report.cause[0].texts.insert("parameter".to_owned(), component.to_owned())),
+            _ => report.cause[0].component = Some(component.to_owned()),
+        }
+        assert_eq!(judge(&two, &report, 1.0).both_right, Some(is_right), "{report:?}");
+    };
+    let limit = ("velocity-limit", EffectPlace::Actuator);
+    check(of("maxVelocityX", "parameter-error", "any"), "X", limit, true);
+    check(of("maxVelocityX", "parameter-error", "any"), "Y", limit, false);
+    check(of("maxAccelerationX", "parameter-error", "any"), "X", limit, false);
+    check(
+        of("R", "acceleration-limit", "actuator"),
+        "maxAccelerationR",
+        ("parameter-error", EffectPlace::Actuator),
+        true,
+    );
+    check(of("R", "acceleration-limit", "actuator"), "maxVelocityR", ("parameter-error", EffectPlace::Actuator), false);
+}
+
+#[test]
 fn what_nobody_has_to_know_is_wrong_only_where_it_is_answered_surely() {
     let check = |sort, magnitude, verdict, causes: &[(&str, &str, EffectPlace)], is_wrong: bool| {
         let effects = match sort {

@@ -326,6 +326,7 @@ fn link(geometry: &Geometry, seen: &[Seen], factor: f64) -> Vec<Option<usize>> {
 fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &dyn Fn(f64) -> f64) {
     let mut best: Vec<Option<(f64, f64)>> = vec![None; parts];
     let known: Vec<Option<f64>> = (0..parts).map(|part| known_length(geometry, seen, part)).collect();
+    let made = made_length(geometry, seen, travel);
     let by_hands = |cut: &Seen| geometry.hands[cut.beam].iter().any(|(from, to)| (*from..=*to).contains(&cut.to));
     let by_belt = |cut: &Seen| cut.fall.is_some() && !by_hands(cut);
     // What the belt brings again, or takes back the way it came, says nothing of a length.
@@ -333,25 +334,41 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
     for cut in seen.iter().filter(|cut| by_belt(cut) && cut.again.is_none() && !turns_back(cut)) {
         let Some(part) = cut.part.filter(|part| *part < parts) else { continue };
         let (best, known) = (&mut best[part], &known[part]);
-        let off = |length: f64| misses(geometry, cut, length, travel);
+        let as_made = |length: f64| made.filter(|_| known.is_some()).unwrap_or(length);
+        let off = |length: f64| misses(geometry, cut, as_made(length), travel);
         let lengths = known.as_ref().map_or(geometry.lengths.as_slice(), std::slice::from_ref);
         let Some((least, length)) = nearest(lengths, off) else { continue };
         // Two that touch cut it as one.
-        let sums = geometry.lengths.iter().flat_map(|a| geometry.lengths.iter().map(move |b| a + b));
-        let is_one = least < LENGTH_GATE_M.min(0.5 * LENGTH_GATE * length) || sums.map(off).all(|sum| least < sum);
+        let sums =
+            geometry.lengths.iter().flat_map(|a| geometry.lengths.iter().map(move |b| as_made(*a) + as_made(*b)));
+        let is_one = least < LENGTH_GATE_M.min(0.5 * LENGTH_GATE * length)
+            || sums.map(|sum| misses(geometry, cut, sum, travel)).all(|sum| least < sum);
         if is_one && least <= LENGTH_GATE * length && best.is_none_or(|(found, _)| least < found) {
             *best = Some((least, length));
         }
     }
-    for cut in seen.iter_mut().filter(|cut| by_belt(cut) || cut.stays) {
-        let found = cut.part.and_then(|part| best.get(part).copied().flatten()).map(|(_, length)| length);
+    let of_part = |cut: &Seen| cut.part.and_then(|part| best.get(part).copied().flatten()).map(|(_, length)| length);
+    let fits = |cut: &Seen, length: f64| {
+        let is_known = cut.part.is_some_and(|part| known.get(part).is_some_and(Option::is_some));
+        let made = made.filter(|_| is_known).unwrap_or(length);
+        misses(geometry, cut, made, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length)
+    };
+    // A part that comes whole to the next beam was not taken out of this one, however short it cut it: that is the sensor's.
+    let comes_whole: Vec<bool> = seen
+        .iter()
+        .map(|cut| {
+            let is_next = |next: &Seen| {
+                next.part == cut.part && next.beam != cut.beam && next.from > cut.from && next.again.is_none()
+            };
+            let is_whole = |next: &Seen| by_belt(next) && of_part(next).is_some_and(|length| fits(next, length));
+            seen.iter().any(|next| is_next(next) && is_whole(next))
+        })
+        .collect();
+    for (cut, comes_whole) in seen.iter_mut().zip(comes_whole).filter(|(cut, _)| by_belt(cut) || cut.stays) {
+        let found = of_part(cut);
         let length = found.or(cut.part.and_then(|part| known.get(part).copied().flatten()).filter(|_| turns_back(cut)));
-        if cut.stays || cut.again.is_some() || turns_back(cut) {
-            cut.length = length;
-            continue;
-        }
-        let fits = |length: &f64| misses(geometry, cut, *length, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length);
-        cut.length = length.filter(fits);
+        let stands = cut.stays || cut.again.is_some() || turns_back(cut) || comes_whole;
+        cut.length = length.filter(|length| stands || fits(cut, *length));
     }
 }
 
@@ -360,6 +377,28 @@ fn known_length(geometry: &Geometry, seen: &[Seen], part: usize) -> Option<f64> 
     let first = seen.iter().find(|cut| cut.part == Some(part))?;
     let (beam, length) = geometry.fed?;
     (first.beam == beam && first.way > 0.0).then_some(length)
+}
+
+/// How long the parts of a bay are by how far they went while they cut a beam, m, where several agree: they may be made otherwise than declared by
+/// more than one part may be off.
+fn made_length(geometry: &Geometry, seen: &[Seen], travel: &dyn Fn(f64) -> f64) -> Option<f64> {
+    const ENOUGH: usize = 3;
+    /// How far from one another those that agree may be, and from what was declared, as shares.
+    const AGREE: f64 = 0.1;
+    const FURTHEST: f64 = 0.5;
+    let (fed, declared) = geometry.fed?;
+    let of_beam = |beam: usize| -> Option<f64> {
+        let is_whole = |cut: &&Seen| cut.beam == beam && cut.way > 0.0 && cut.fall.is_some() && cut.again.is_none();
+        let mut gone: Vec<f64> = seen.iter().filter(is_whole).map(|cut| travel(cut.to) - cut.start).collect();
+        gone.retain(|gone| (gone - declared).abs() <= FURTHEST * declared);
+        gone.sort_by(f64::total_cmp);
+        let middle = *gone.get(gone.len() / 2)?;
+        let agree = gone.iter().filter(|gone| (*gone - middle).abs() <= AGREE * declared).count();
+        (agree >= ENOUGH && 2 * agree > gone.len()).then_some(middle)
+    };
+    // Where the other beam has another length the sensor is to blame.
+    let (made, beyond) = (of_beam(fed)?, of_beam(1 - fed));
+    beyond.is_none_or(|beyond| (beyond - made).abs() <= AGREE * declared).then_some(made)
 }
 
 /// The length that is off the least, with how far it is off.
@@ -609,5 +648,33 @@ mod tests {
         };
         assert_eq!(lengths(None), [0.24, 0.24]);
         assert_eq!(lengths(Some((0, 0.3))), [0.3, 0.3]);
+    }
+
+    #[test]
+    fn a_part_that_comes_whole_to_the_next_beam_was_not_taken_out_of_this_one() {
+        // Barrier A sees the last 0.1 m of it alone; nothing comes to barrier B.
+        let short = &[(1.41, 1.61)];
+        let (script, _) = of_rig(short, &[(3.81, 4.41)]);
+        assert!(script.cuts.iter().all(|cut| cut.taken.is_none() && cut.length == 0.3), "{:?}", script.cuts);
+        assert_eq!(script.cuts.len(), 2);
+        let (script, _) = of_rig(short, &[]);
+        assert!(script.cuts[0].taken.is_some(), "{:?}", script.cuts);
+    }
+
+    #[test]
+    fn a_bays_parts_may_all_be_of_another_length_than_declared() {
+        // They cut both beams for 0.2 m.
+        let lengths = |parts: u32| -> Vec<f64> {
+            let all = |from: f64| {
+                (0..parts).map(|k| (from + 6.0 * f64::from(k), from + 6.0 * f64::from(k) + 0.4)).collect::<Vec<_>>()
+            };
+            let (a, b) = (barrier(&all(1.01)), barrier(&all(3.81)));
+            let geometry = Geometry { fed: Some((0, 0.3)), ..rig() };
+            let (script, _) = assign(&geometry, [Some(&a), Some(&b)], &|at| 0.5 * at);
+            script.cuts.iter().map(|cut| cut.length).collect()
+        };
+        assert_eq!(lengths(3), [0.3; 6]);
+        // One alone may be anything.
+        assert!(lengths(1).iter().all(|length| length.is_infinite()), "{:?}", lengths(1));
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::bench::{Bench, Trial};
 use super::ladder::anew;
 use super::nuisance::{Nuisance, nuisances};
-use crate::gap::fit::sum_of_squares;
+use crate::gap::fit::{spread, sum_of_squares};
 use crate::gap::{Overrides, Prediction, Subject, THRESHOLD, evidence};
 
 /// What is known of a device before any effect is looked for.
@@ -106,6 +106,9 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, 
     if is_off(&best)? {
         best = lower(nearer(bench, &best.at), best);
     }
+    if !has_slopes && is_off(&best)? {
+        best = lower(walked(bench, &best), best);
+    }
     Some((best.at, best.overrides))
 }
 
@@ -134,6 +137,15 @@ fn about(bench: &Bench<'_>, start: &[f64]) -> Vec<f64> {
         }
     }
     best
+}
+
+/// The best that walkers find from where a fit of edges alone ended: what is late by one parameter and early by another has no way out along
+/// either.
+fn walked(bench: &Bench<'_>, best: &Trial) -> Vec<f64> {
+    const SEED: u64 = 1;
+    const RISE: f64 = 3.84;
+    let cost = |at: &[f64]| Some(cost(bench, at));
+    spread(&cost, &best.fitted(), &best.ranges, 0, (RISE, SEED)).best.at
 }
 
 /// The best of each parameter moved a little and ever less: of a count that is many off in the end nothing has a slope.

@@ -394,10 +394,19 @@ pub fn handicap(trial: &Trial, below: usize) -> f64 {
 /// Whether `next` gains over `below` more than chance, a share worth having, and moves anything at all. The device is weighed by
 /// what `next` leaves.
 pub fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+    is_worth(bench, (below, next), ladder, 1.0)
+}
+
+/// An effect that stands is worth keeping by this part of the share that it takes to be taken up: two that need one another would come and go
+/// where their shares lie about that.
+const TO_STAY: f64 = 0.5;
+
+/// The same where `part` of the shares is enough.
+fn is_worth(bench: &Bench<'_>, (below, next): (&Trial, &Trial), ladder: &Ladder, part: f64) -> bool {
     let Some(below) = bench.trial(&below.set, below.at.clone()) else { return false };
     let gain = below.cost - next.cost;
     let further = next.parameters() - below.parameters();
-    if gain < least_gain(further, ladder.tried) * next.inflation() || !is_a_share(bench, &below, next, ladder) {
+    if gain < least_gain(further, ladder.tried) * next.inflation() || !is_a_share(bench, (&below, next), ladder, part) {
         return false;
     }
     let predictions = bench.predict(&below.set, &below.at).zip(bench.predict(&next.set, &next.at));
@@ -406,8 +415,8 @@ pub fn is_worth_having(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &
 
 /// Whether `next` surely takes away a share worth having beyond `below`: of the bare model's excess, or, where that is explained but
 /// for a part of the motion, of what `below` leaves; on blocks that the parameters of neither
-/// saw. By block bootstrap.
-fn is_a_share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -> bool {
+/// saw; where `part` of such a share is enough. By block bootstrap.
+fn is_a_share(bench: &Bench<'_>, (below, next): (&Trial, &Trial), ladder: &Ladder, part: f64) -> bool {
     /// How many deviations of the floor an excess must be for the draws of it to say what a share of it is.
     const PLAIN: f64 = 5.0;
     let Some(bare) = bench.trial(&[], ladder.bare.at.clone()) else { return false };
@@ -429,8 +438,8 @@ fn is_a_share(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladder) -
         sum > EXPLAINED * above && blocks > FEWEST_BLOCKS * further as f64
     };
     is_confirmed
-        || surely(&bare.blocks) >= LEAST_SHARE
-        || (!bench.is_rugged() && surely(&before) >= LEAST_SHARE_OF_REST)
+        || surely(&bare.blocks) >= part * LEAST_SHARE
+        || (!bench.is_rugged() && surely(&before) >= part * LEAST_SHARE_OF_REST)
 }
 
 /// An effect in a few rare events is believed where it explains so much of them, each by what the others say, and where they lie in so
@@ -454,7 +463,7 @@ fn drop_idle(bench: &Bench<'_>, ladder: &mut Ladder) -> bool {
     let (mut place, mut is_dropped) = (0, false);
     while ladder.best.set.len() > 1 && place < ladder.best.set.len() && !bench.is_stopped() {
         match fitted_without(&weighed, &ladder.best, place) {
-            Some(without) if !is_worth_having(&weighed, &without, &ladder.best, ladder) => {
+            Some(without) if !is_worth(&weighed, (&without, &ladder.best), ladder, TO_STAY) => {
                 (ladder.best, is_dropped) = (without, true);
             }
             _ => place += 1,

@@ -4,7 +4,7 @@ use super::Finding;
 use super::shrink::{Squares, shrink};
 use crate::gap::regimes::regimes;
 use crate::gap::report::{DeviceGap, EdgeCounts, Gap, InWindows, Report, SignalGap, SignalKind, Verdict};
-use crate::gap::{Recording, Score, SignalScore, Span, Study, Subject, WINDOW_S};
+use crate::gap::{Recording, Score, SignalScore, Span, Study, Subject, THRESHOLD, WINDOW_S, evidence};
 use crate::plant::{EffectSpec, Plant};
 use crate::signal_map::Kind;
 
@@ -86,7 +86,11 @@ impl Measured {
                 let after = with(&windowed);
                 Some((before.clone(), after.unwrap_or(before)))
             });
-            measured.squares.add(subject, &before, after);
+            // Many signals that are in order lie above and below their floors by chance: no part of a gap is that.
+            match finding.has_gap() || evidence(subject, &nominal) > THRESHOLD {
+                true => measured.squares.add(subject, &before, after),
+                false => measured.squares.add_floor(subject, &before),
+            }
             if finding.has_gap() {
                 measured.devices.push(DeviceGap {
                     device: device(plant, subject, finding),

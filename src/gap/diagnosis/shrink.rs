@@ -2,7 +2,8 @@
 //!
 //! The gap of a signal is normalised by its floor: of a level the mean square of its differences over that of the floor, of an
 //! edge 1 and the mean of what its edges cost above the floor, so that a signal at its floor counts 1 and metres, counts and
-//! booleans can be put in one figure. The plant's gap is the root of the mean over its signals.
+//! booleans can be put in one figure. The plant's gap is the root of the mean over its signals; those of a device of which nothing was found, and
+//! where nothing is beyond chance, count as at their floors.
 
 use crate::gap::cause::BLOCK_S;
 use crate::gap::report::{Gap, NormalisedRms, Shrink};
@@ -22,18 +23,30 @@ pub(super) struct Squares {
 impl Squares {
     /// Adds the signals of a device, scored without and with what is added to it.
     pub fn add(&mut self, subject: &Subject, before: &Score, after: &Score) {
-        for (place, _) in subject.signals.iter().enumerate() {
-            let of = |score: &Score| {
-                score.signals.iter().filter(|signal| signal.signal == place).cloned().collect::<Vec<_>>()
-            };
-            let (before, after) = (of(before), of(after));
-            if before.iter().any(|signal| weight(signal) > 0.0) {
+        for place in 0..subject.signals.len() {
+            let (before, after) = (of_signal(before, place), of_signal(after, place));
+            if is_weighed(&before) {
                 self.signals += 1.0;
                 add(&mut self.before, &before);
                 add(&mut self.after, &after);
             }
         }
     }
+
+    /// Adds the signals of a device that is in order: at their floors.
+    pub fn add_floor(&mut self, subject: &Subject, score: &Score) {
+        let weighed = (0..subject.signals.len()).filter(|place| is_weighed(&of_signal(score, *place)));
+        self.signals += weighed.count() as f64;
+    }
+}
+
+/// One signal in all runs.
+fn of_signal(score: &Score, place: usize) -> Vec<SignalScore> {
+    score.signals.iter().filter(|signal| signal.signal == place).cloned().collect()
+}
+
+fn is_weighed(runs: &[SignalScore]) -> bool {
+    runs.iter().any(|signal| weight(signal) > 0.0)
 }
 
 fn weight(signal: &SignalScore) -> f64 {

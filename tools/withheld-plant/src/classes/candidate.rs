@@ -117,8 +117,10 @@ fn spots(entry: &Entry, truth: &Quirk, device: &str, axis: Option<&str>, signals
         .map(|(device, component, scale)| ((*device).to_owned(), (*component).to_owned(), *scale))
         .collect();
     let also = |component: &str, scale: f64| (device.to_owned(), component.to_owned(), scale);
-    if OF_LINKS.contains(&entry.effect) {
-        places.push(also("", 1.0));
+    // The wires of one signal may be crossed; a whole link's are not.
+    let is_link = OF_LINKS.contains(&entry.effect);
+    if is_link || entry.effect == "inverted" {
+        places.extend(is_link.then(|| also("", 1.0)));
         let reports = signals.iter().map(|signal| signal.parts().1);
         let commands = crate::rig::commands();
         let commands = commands.iter().filter_map(|(name, _)| name.split_once('.'));

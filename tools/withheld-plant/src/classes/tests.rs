@@ -142,6 +142,15 @@ fn a_drawn_plants_classes_are_in_its_own_names_and_to_its_own_scale() {
 /// A motor at several speeds for most of a minute, its encoder a seventh short: what a small step of the scale changes is less than counts are
 /// rounded to.
 #[test]
+fn an_axis_of_a_robot_that_goes_the_wrong_way_may_be_read_the_wrong_way() {
+    let robot = Rig::new("Robot", &[(0.2, "YTarget", 0.4), (2.0, "YTarget", -0.1), (3.5, "XTarget", 0.2)]);
+    let mut inverted = at("command-link", axis_quirk("Robot", "YTarget", "inverted", &[]));
+    assert_eq!(robot.class(&inverted, 5.0), ["inverted at command-link", "inverted at report-link"]);
+    inverted.component = Some("XTarget".to_owned());
+    assert_eq!(robot.class(&inverted, 5.0), ["inverted at command-link", "inverted at report-link"]);
+}
+
+#[test]
 fn a_motor_that_slips_by_much_has_another_scale() {
     let speeds = [24.0, -12.0, 18.0, 6.0, -24.0, 10.0, 21.0, -7.0, 15.0, 24.0, 3.0, -18.0, 20.0, 24.0];
     let mut script = vec![(0.1, "enable", 1.0)];
