@@ -13,8 +13,9 @@ const RISE: f64 = 1.1 * 1.1 * 3.84;
 /// How far a parameter may be off for what a law leaves out of the machine, as a share of itself, in an interval of 95 %: what evaluation by
 /// other means than statistics adds (JCGM 100:2008, 4.3). Of gross effects the noise alone leaves as little as some millionths. (Plants with
 /// equations of their own, friction with bristles and two masses on a spring among them, gave springs 0.5 to 0.9 per mille off where it
-/// left 0.3 to 0.6, and frictions and belts under load 2 to 14 per mille.)
-const OF_THE_LAW: f64 = 5e-3;
+/// left 0.3 to 0.6, and frictions and belts under load 2 to 14 per mille; of 21 parameters of gross effects of another practice set 17 lay within
+/// 2 per mille, and the two furthest off, of frictions, 5.7 and 6.7.)
+const OF_THE_LAW: f64 = 7e-3;
 
 /// A parameter of an effect with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -81,7 +81,9 @@ pub fn diagnose(
 ) -> Result<Diagnosis, StudyError> {
     let study = Study::new(plant, train)?;
     let meant = study.subjects.iter().zip(&study.bare).enumerate();
-    let meant = meant.filter(|(_, (subject, _))| (options.is_meant)(&subject.id.instance(plant).name));
+    // What a bay makes shows on the belt that it feeds: where the bay alone is meant, its belt is looked at for that.
+    let is_meant = |subject: &Subject| (options.is_meant)(&subject.id.instance(plant).name);
+    let meant = meant.filter(|(_, (subject, _))| is_meant(subject) || subject.feeder().is_some_and(options.is_meant));
     // Where the answer is wanted before all is looked at, the largest gap has been.
     let mut meant: Vec<_> =
         meant.map(|(place, (subject, bare))| (evidence(subject, &bare.prediction), place, subject, bare)).collect();
@@ -89,7 +91,10 @@ pub fn diagnose(
     let mut findings: Vec<Finding> = meant
         .into_par_iter()
         .with_max_len(1)
-        .filter_map(|(_, place, subject, bare)| finding::find(place, subject, bare, &study, options))
+        .filter_map(|(_, place, subject, bare)| {
+            let is_asked = |id: &str| (is_meant(subject) || subject.maker(id).is_some()) && (options.is_asked)(id);
+            finding::find(place, subject, bare, &study, &Options { is_asked: &is_asked, ..*options })
+        })
         .collect();
     findings.sort_by_key(|finding| finding.subject);
     let mut held_out = Study::beside(plant, held_out, &study)?;

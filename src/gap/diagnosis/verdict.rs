@@ -61,8 +61,9 @@ pub(super) fn fill(report: &mut Report, plant: &Plant, study: &Study, findings: 
     }
     let explaining =
         || findings.iter().filter(|finding| matches!(finding.conclusion, Conclusion::Explained | Conclusion::Partial));
+    // What is left of a part is outside, however sure it is that it goes with something.
     let certainty = findings.iter().map(|finding| match finding.conclusion {
-        Conclusion::Unknown | Conclusion::TooShort => 1.0,
+        Conclusion::Unknown | Conclusion::TooShort | Conclusion::Partial => 1.0,
         _ if finding.remainder.is_significant => finding.remainder.certainty,
         _ => 0.0,
     });

@@ -221,7 +221,7 @@ pub const ENTRIES: &[Entry] = &[
     entry("intermittent", REPORT, FLAGS, &[Grows("probability", 0.3), Is("time", 0.1)]),
     entry("intermittent", REPORT, READINGS, &[Share("probability", 0.3), OneOf("time", &[0.1])]),
     entry("wrong-unit", COMMAND, TARGETS, &[OneOf("factor", &[0.1, 0.0254, 2.54, 0.304_8])]),
-    entry("wrong-unit", REPORT, READINGS, &[OneOf("factor", &[1000.0, 0.1, 10.0, 57.295_779_5])]),
+    entry("wrong-unit", REPORT, READINGS, &[OneOf("factor", &[1000.0, 0.1, 10.0, 57.295_779_513_082_32])]),
     entry("input-filter", COMMAND, TARGETS, &[Share("time_constant", 0.2)]),
     entry("dead-time", COMMAND, ALL, &[Grows("time", 0.2)]),
     entry("dead-time", REPORT, ALL, &[Grows("time", 0.2)]),
