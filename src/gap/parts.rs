@@ -347,28 +347,19 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
             *best = Some((least, length));
         }
     }
-    let of_part = |cut: &Seen| cut.part.and_then(|part| best.get(part).copied().flatten()).map(|(_, length)| length);
-    let fits = |cut: &Seen, length: f64| {
-        let is_known = cut.part.is_some_and(|part| known.get(part).is_some_and(Option::is_some));
-        let made = made.filter(|_| is_known).unwrap_or(length);
-        misses(geometry, cut, made, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length)
-    };
-    // A part that comes whole to the next beam was not taken out of this one, however short it cut it: that is the sensor's.
-    let comes_whole: Vec<bool> = seen
-        .iter()
-        .map(|cut| {
-            let is_next = |next: &Seen| {
-                next.part == cut.part && next.beam != cut.beam && next.from > cut.from && next.again.is_none()
-            };
-            let is_whole = |next: &Seen| by_belt(next) && of_part(next).is_some_and(|length| fits(next, length));
-            seen.iter().any(|next| is_next(next) && is_whole(next))
-        })
-        .collect();
-    for (cut, comes_whole) in seen.iter_mut().zip(comes_whole).filter(|(cut, _)| by_belt(cut) || cut.stays) {
-        let found = of_part(cut);
+    for cut in seen.iter_mut().filter(|cut| by_belt(cut) || cut.stays) {
+        let found = cut.part.and_then(|part| best.get(part).copied().flatten()).map(|(_, length)| length);
         let length = found.or(cut.part.and_then(|part| known.get(part).copied().flatten()).filter(|_| turns_back(cut)));
-        let stands = cut.stays || cut.again.is_some() || turns_back(cut) || comes_whole;
-        cut.length = length.filter(|length| stands || fits(cut, *length));
+        if cut.stays || cut.again.is_some() || turns_back(cut) {
+            cut.length = length;
+            continue;
+        }
+        let is_known = cut.part.is_some_and(|part| known.get(part).is_some_and(Option::is_some));
+        let fits = |length: &f64| {
+            let made = made.filter(|_| is_known).unwrap_or(*length);
+            misses(geometry, cut, made, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length)
+        };
+        cut.length = length.filter(fits);
     }
 }
 
@@ -648,17 +639,6 @@ mod tests {
         };
         assert_eq!(lengths(None), [0.24, 0.24]);
         assert_eq!(lengths(Some((0, 0.3))), [0.3, 0.3]);
-    }
-
-    #[test]
-    fn a_part_that_comes_whole_to_the_next_beam_was_not_taken_out_of_this_one() {
-        // Barrier A sees the last 0.1 m of it alone; nothing comes to barrier B.
-        let short = &[(1.41, 1.61)];
-        let (script, _) = of_rig(short, &[(3.81, 4.41)]);
-        assert!(script.cuts.iter().all(|cut| cut.taken.is_none() && cut.length == 0.3), "{:?}", script.cuts);
-        assert_eq!(script.cuts.len(), 2);
-        let (script, _) = of_rig(short, &[]);
-        assert!(script.cuts[0].taken.is_some(), "{:?}", script.cuts);
     }
 
     #[test]
