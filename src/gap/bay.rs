@@ -5,6 +5,7 @@
 
 use super::layout::Fed;
 use super::recording::TaskId;
+use super::subject::Subject;
 use crate::device::{Device, Role};
 use crate::effect::{self, EffectError};
 use crate::plant::{EffectSpec, Parameters, Plant};
@@ -76,5 +77,17 @@ impl Bay {
             Role::Makes(source) => Ok(source.size[0]),
             _ => Ok(0.0),
         }
+    }
+}
+
+impl Subject {
+    /// The bay that feeds this belt, by its name.
+    pub(super) fn feeder(&self) -> Option<&str> {
+        self.bay.as_ref().map(|bay| bay.name.as_str())
+    }
+
+    /// The bay whose effect one is, by the effect's id, that this device shows and does not have.
+    pub(super) fn maker(&self, effect: &str) -> Option<&str> {
+        self.feeder().filter(|_| Bay::is_of(effect))
     }
 }

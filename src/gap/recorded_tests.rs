@@ -10,6 +10,8 @@ use crate::trace::Reader;
 
 /// A pusher that is a per cent slow beside a motor and a gripper that are as they should be.
 pub const SLOW_PUSHER: &str = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
+/// A pusher with nothing wrong, beside a motor and a gripper.
+pub const ORDERLY_PUSHER: &str = "tests/data/pusher-in-order.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
 

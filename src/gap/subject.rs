@@ -440,16 +440,6 @@ impl Subject {
         self.runs.iter().any(|run| run.course.is_some())
     }
 
-    /// The bay that feeds this belt, by its name.
-    pub(super) fn feeder(&self) -> Option<&str> {
-        self.bay.as_ref().map(|bay| bay.name.as_str())
-    }
-
-    /// The bay whose effect one is, by the effect's id, that this device shows and does not have.
-    pub(super) fn maker(&self, effect: &str) -> Option<&str> {
-        self.feeder().filter(|_| Bay::is_of(effect))
-    }
-
     /// Whether an effect fits the device, or the bay that feeds it.
     pub(super) fn takes(&self, effect: &EffectSpec) -> bool {
         let effects = std::slice::from_ref(effect);
