@@ -202,7 +202,7 @@ impl Study {
             self.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
         }
         let each = self.subjects.par_iter().zip(&self.nominal).zip(&mut self.bare);
-        each.filter(|((subject, _), bare)| is_off((*subject, &**bare)))
+        each.filter(|((subject, _), bare)| !subject.has_levels() && is_off((*subject, &**bare)))
             .for_each(|((subject, nominal), bare)| *bare = bare.widely(subject, nominal));
         self
     }
