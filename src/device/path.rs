@@ -103,6 +103,10 @@ pub trait Stage: Send + Sync + fmt::Debug {
         value
     }
 
+    /// From now on counters pass as the numbers that they are rounded from: see
+    /// [`Device::count_finely`](crate::device::Device::count_finely).
+    fn count_finely(&mut self) {}
+
     /// The longest stretch that the stage bears, s: what it computes over a longer one would be off.
     fn stretch(&self) -> f64 {
         STRETCH_S
@@ -239,6 +243,11 @@ impl Path {
     /// See [`Stage::signal`].
     pub fn signal(&mut self, value: f64, moment: Moment) -> f64 {
         self.stages.iter_mut().fold(value, |value, stage| stage.signal(value, moment))
+    }
+
+    /// See [`Stage::count_finely`].
+    pub fn count_finely(&mut self) {
+        self.stages.iter_mut().for_each(|stage| stage.count_finely());
     }
 
     /// The first change that any stage foresees.

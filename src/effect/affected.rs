@@ -302,6 +302,7 @@ impl Device for Affected {
 
     fn count_finely(&mut self) {
         self.inner.count_finely();
+        self.signals.iter_mut().for_each(|signal| signal.path.count_finely());
     }
 
     fn state(&self, visit: &mut dyn FnMut(f64)) {

@@ -53,6 +53,10 @@ impl Stage for ClockDrift {
         self.mail.next()
     }
 
+    fn count_finely(&mut self) {
+        self.history.count_finely();
+    }
+
     fn signal(&mut self, value: f64, Moment { now, .. }: Moment) -> f64 {
         if self.rate == 0.0 {
             return value;

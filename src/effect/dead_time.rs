@@ -63,6 +63,12 @@ impl Stage for DeadTime {
         self.stretch
     }
 
+    fn count_finely(&mut self) {
+        if let Way::History(history) = &mut self.way {
+            history.count_finely();
+        }
+    }
+
     fn signal(&mut self, value: f64, Moment { now, .. }: Moment) -> f64 {
         if self.time == 0.0 {
             return value;

@@ -123,6 +123,12 @@ impl Stage for InputFilter {
         }
     }
 
+    fn count_finely(&mut self) {
+        if let Filter::Low { is_whole, .. } = &mut self.filter {
+            *is_whole = false;
+        }
+    }
+
     fn signal(&mut self, value: f64, moment: Moment) -> f64 {
         if self.time_constant == 0.0 {
             return value;
@@ -133,8 +139,7 @@ impl Stage for InputFilter {
                 // It has moved on a straight line since.
                 let course = Course::straight(input.replace(value).unwrap_or(value), value);
                 let filtered = *output.insert(follow(output.unwrap_or(value), course, span, self.time_constant));
-                // A counter that tells parts of a count is one whose steps nobody is to see.
-                if *is_whole && value.fract() == 0.0 { (filtered + SAME_COUNT).floor() } else { filtered }
+                if *is_whole { (filtered + SAME_COUNT).floor() } else { filtered }
             }
             Filter::Steps(steps) => steps.pass(value, moment.now, span, self.time_constant),
             Filter::Stand { mail, stood } => {

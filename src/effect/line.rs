@@ -63,6 +63,11 @@ impl History {
         History { samples: VecDeque::new(), is_smooth, is_whole }
     }
 
+    /// What lies between two samples of a count is no longer rounded.
+    pub fn count_finely(&mut self) {
+        self.is_whole = false;
+    }
+
     /// The signal is `value` now.
     pub fn note(&mut self, now: f64, value: f64) {
         match self.samples.back() {

@@ -59,6 +59,10 @@ impl Stage for SamplingJitter {
         self.mail.next()
     }
 
+    fn count_finely(&mut self) {
+        self.history.count_finely();
+    }
+
     fn signal(&mut self, value: f64, Moment { now, .. }: Moment) -> f64 {
         if self.sigma == 0.0 {
             return value;

@@ -647,3 +647,35 @@ fn parameters_of_a_device_are_left_as_they_are_by_all_but_those_that_change_them
     let same: &Parameters = &same;
     assert_eq!(same, &bench.parameters);
 }
+
+/// A diagnosis compares counts before they are rounded: whatever a report passes keeps the parts of a count that it has, and is within one of what
+/// it is when it is rounded.
+#[test]
+fn parts_of_a_count_pass_every_effect_of_a_report() {
+    let gain = |name: &'static str, value: f64| ("gain", "sensor", vec![(name, value)]);
+    let of_link = |id: &'static str, name: &'static str, value: f64| (id, "report-link", vec![(name, value)]);
+    let all = [
+        gain("gain", 1.0),
+        gain("gain", 0.9),
+        of_link("wrong-unit", "factor", 2.0),
+        of_link("dead-time", "time", 0.0137),
+        of_link("input-filter", "time_constant", 0.0137),
+        of_link("clock-drift", "rate", 0.01),
+        of_link("sampling-jitter", "sigma", 0.01),
+        ("drift", "sensor", vec![("rate", 3.0)]),
+    ];
+    for (id, place, values) in all {
+        let count = |is_fine: bool| {
+            let effect = spec(place, id, Some("encoder"), &values);
+            let mut motor = super::bench::with("EncoderMotor", &[], &[effect]);
+            if is_fine {
+                motor.device.count_finely();
+            }
+            motor.check(&[("speedTarget", 10.0), ("enable", 1.0)], 1.23, &[]);
+            motor.report("encoder")
+        };
+        let (whole, fine) = (count(false), count(true));
+        assert!(whole.fract() == 0.0 && fine.fract() != 0.0, "{id}: {whole}, {fine}");
+        assert!((fine - whole).abs() <= 2.0, "{id}: {whole}, {fine}");
+    }
+}

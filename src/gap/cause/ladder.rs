@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::intervals::{intervals, of_each};
-use super::remainder::{is_explained_by_friction, remainder};
+use super::remainder::{is_explained_but_for_the_law, remainder};
 use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
@@ -133,6 +133,7 @@ pub fn climb(
         }
     }
     while drop_unknown(bench, &mut ladder, tick) {}
+    leave_alone_what_lets_go(bench, &mut ladder);
     if ladder.best.parameters() > 1 && !bench.subject.has_levels() {
         spread_out(bench, &mut ladder);
     }
@@ -184,7 +185,7 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
         return Rung::Left;
     }
-    if is_explained_by_friction(bench, &below, &ladder.bare.at) {
+    if is_explained_but_for_the_law(bench, &below, &ladder.bare.at) {
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
@@ -501,6 +502,34 @@ fn drop_unknown(bench: &Bench<'_>, ladder: &mut Ladder, tick: f64) -> bool {
     found.map(|found| *ladder = found).is_some()
 }
 
+/// Whether an effect with these values is a friction that falls within a hundredth of the axis's speeds: one that lets go at once, told with a
+/// number more.
+pub fn lets_go_at_once(candidate: &Candidate, at: &[f64]) -> bool {
+    /// Of a velocity's scale, which is two hundredths of the highest speed.
+    const AT_ONCE: f64 = 0.5;
+    let velocity = candidate.free.iter().zip(at).find(|(free, _)| free.name == "velocity");
+    candidate.effect.id == "stribeck-friction"
+        && velocity.is_some_and(|(free, velocity)| *velocity < AT_ONCE * free.range.scale)
+}
+
+/// Takes out what stands beside a friction that lets go at once where that alone leaves no more than friction may: a joint bends by some
+/// micrometres before it slides, which a stiff spring beside it would tell.
+fn leave_alone_what_lets_go(bench: &Bench<'_>, ladder: &mut Ladder) {
+    let best = &ladder.best;
+    let Some((friction, own)) = best.values().find(|(candidate, own)| lets_go_at_once(candidate, own)) else { return };
+    if best.set.len() < 2 || bench.is_stopped() {
+        return;
+    }
+    let weighed = bench.with(&ladder.subject);
+    let set = [friction.clone()];
+    let start = [own, &weighed.carried(&set, &best.overrides)].concat();
+    let Some(alone) = weighed.fit(&set, std::slice::from_ref(&start), anew(start.len())) else { return };
+    let alone = Ladder { best: alone, ends: None, ..ladder.clone() };
+    if remainder(bench, &alone).is_some_and(|left| !left.is_large && !left.is_significant) {
+        *ladder = alone;
+    }
+}
+
 /// The best set without one of its effects, fitted anew.
 fn fitted_without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial> {
     let (set, at) = bench.without(best, place);
@@ -585,5 +614,40 @@ mod tests {
         let left: Vec<&str> = ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
         assert_eq!(left, ["coulomb-friction"]);
         assert!(!drop_unknown(&bench, &mut ladder, 0.0));
+    }
+
+    /// A spring beside a joint that lets go at once, as stiff as bristles are, is how the joint bends.
+    #[test]
+    fn what_lets_go_at_once_stands_alone() {
+        let (mut subject, nominal, _) = rubbing_axis();
+        let one = |id: &str| {
+            let found = candidates(&subject, &nominal, &subject.score(&nominal), &|of| of == id);
+            found.into_iter().next().expect("a candidate")
+        };
+        let (falls, spring) = (one("stribeck-friction"), one("compliance"));
+        let stop = || false;
+        let own = [30.0, 1e-3];
+        assert!(lets_go_at_once(&falls, &own) && !lets_go_at_once(&falls, &[30.0, 1.0]));
+        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&[falls.clone()], &own).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let stiff = spring.free.iter().map(|free| free.range.greatest);
+        let at: Vec<f64> = own.into_iter().chain(stiff).collect();
+        let mut ladder = Ladder {
+            floor: floor(&subject.score(&nominal)),
+            bare: bench.trial(&[], Vec::new()).expect("a trial"),
+            beneath: 0.0,
+            best: bench.trial(&[falls, spring], at).expect("a trial"),
+            ends: None,
+            subject: subject.clone(),
+            singles: Vec::new(),
+            near: Vec::new(),
+            tried: 0,
+            too_few_blocks: None,
+            folds: Folds::Long,
+        };
+        leave_alone_what_lets_go(&bench, &mut ladder);
+        let left: Vec<&str> = ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
+        assert_eq!(left, ["stribeck-friction"]);
     }
 }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::Options;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, MOST_INFLATED, Nuisance, Remainder, Standing, Trial,
-    anew, answers, climb, intervals, misfit, of_each, plainness, remainder,
+    anew, answers, climb, intervals, lets_go_at_once, misfit, of_each, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
+use crate::gap::fit::Effort;
 use crate::gap::schedule::PART_SPACING;
 use crate::gap::{FAR_BEYOND, Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::EffectSpec;
@@ -134,7 +135,7 @@ fn conclude(
     let weighed = bench.with(&weighing);
     finding.answers = answers(&weighed, &finding.ladder, options.is_asked, options.tell);
     name_the_plainest(&mut finding);
-    name_what_lets_go_at_once(&mut finding);
+    name_what_lets_go_at_once(&weighed, &mut finding);
     finding.bounds = intervals(&weighed, &finding.ladder.best, finding.ladder.ends.as_deref(), tick);
     finding.conclusion = match () {
         () if finding.remainder.is_large && 1.0 - finding.remainder.share < WORTH_HAVING => Conclusion::Unknown,
@@ -178,21 +179,19 @@ fn is_significant(ladder: &Ladder, bare: &Score) -> bool {
     ladder.excess() > least(ladder.floor) || above > least(worst)
 }
 
-/// A friction that falls within a hundredth of the axis's speeds is one that lets go at once, told with a number more.
-fn name_what_lets_go_at_once(finding: &mut Finding) {
-    /// Of a velocity's scale, which is two hundredths of the highest speed.
-    const AT_ONCE: f64 = 0.5;
+/// A friction that lets go at once is told without the speed that it falls within. Each time that it lets go is an event of its own, and among
+/// those no slope leads far: it is looked for from about the force on.
+fn name_what_lets_go_at_once(bench: &Bench<'_>, finding: &mut Finding) {
+    const ABOUT: [f64; 7] = [0.9, 0.95, 1.0, 1.05, 1.1, 1.2, 1.35];
     let Ladder { best, singles, .. } = &mut finding.ladder;
     let [named] = best.set.as_slice() else { return };
-    let velocity = named.free.iter().zip(&best.at).find(|(free, _)| free.name == "velocity");
-    let lets_go = velocity.is_some_and(|(free, velocity)| *velocity < AT_ONCE * free.range.scale);
-    if named.effect.id != "stribeck-friction" || !lets_go {
-        return;
-    }
     let is_plain = |trial: &&Trial| trial.set.iter().all(|candidate| candidate.effect.id == "breakaway-friction");
-    if let Some(plain) = singles.iter().find(is_plain) {
-        *best = plain.clone();
-    }
+    let Some(plain) = singles.iter().find(is_plain).filter(|_| lets_go_at_once(named, &best.at)) else { return };
+    let carried = bench.carried(&plain.set, &best.overrides);
+    let about = ABOUT.iter().map(|share| [&[share * best.at[0]], carried.as_slice()].concat());
+    let starts: Vec<Vec<f64>> = about.chain([plain.at.clone()]).collect();
+    let effort = Effort { starts: 3, ..anew(plain.at.len()) };
+    *best = bench.fit(&plain.set, &starts, effort).unwrap_or_else(|| plain.clone());
 }
 
 /// Of the effects that give the same motion one without any number is named, such as metres that are told as millimetres: that a number
