@@ -61,6 +61,7 @@ mod part_slip;
 mod part_spacing_error;
 mod play;
 mod position_dependent_friction;
+mod proportion;
 mod quantisation;
 mod registry;
 mod said;

@@ -12,6 +12,8 @@ use crate::trace::Reader;
 pub const SLOW_PUSHER: &str = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
 /// A pusher with nothing wrong, beside a motor and a gripper.
 pub const ORDERLY_PUSHER: &str = "tests/data/pusher-in-order.cps.jsonl.zst";
+/// A pusher whose clock is slow, beside a motor and a gripper.
+pub const LATE_PUSHER: &str = "tests/data/pusher-whose-clock-is-slow.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
 

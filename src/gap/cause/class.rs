@@ -118,7 +118,7 @@ fn near(bench: &Bench<'_>, best: &Trial, others: Vec<Trial>) -> Vec<Trial> {
 }
 
 /// Whether one of the two is an effect of a link as a whole and the other the same of one of its signals.
-fn is_part(one: &Candidate, other: &Candidate) -> bool {
+pub fn is_part(one: &Candidate, other: &Candidate) -> bool {
     one.effect.id == other.effect.id && one.place == other.place && one.component.is_some() != other.component.is_some()
 }
 

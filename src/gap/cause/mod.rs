@@ -25,7 +25,7 @@ mod unseen;
 pub use bare::Bare;
 pub use bench::{BLOCK_S, Bench, Trial};
 pub use candidate::{Candidate, Free};
-pub use class::{Alternative, Answer, answers, plainness};
+pub use class::{Alternative, Answer, answers, is_part, plainness};
 pub use intervals::{Bounds, intervals, of_each};
 pub use ladder::{Ladder, MOST_INFLATED, Progress, Standing, Tell, anew, climb, floor, lets_go_at_once};
 pub use nuisance::{Nuisance, nuisances};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Options;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, MOST_INFLATED, Nuisance, Remainder, Standing, Trial,
-    anew, answers, climb, intervals, lets_go_at_once, misfit, of_each, plainness, remainder,
+    anew, answers, climb, intervals, is_part, lets_go_at_once, misfit, of_each, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
 use crate::gap::fit::Effort;
@@ -49,6 +49,13 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// Whether reports seem to be lost beside what its effects explain: what stands still, as a joint does that holds, is reported the same again and
+    /// again as well.
+    fn may_stand_still(&self) -> bool {
+        let is_lost = |chance: &Arc<Chance>| chance.candidate.effect.id == "lost-messages";
+        self.chance.as_ref().is_some_and(is_lost) && !self.ladder.best.set.is_empty()
+    }
+
     /// The effects that it adds: none where nothing is explained.
     pub fn specs(&self) -> Vec<EffectSpec> {
         match self.conclusion {
@@ -75,7 +82,13 @@ pub(super) fn find(
         return conclude(place, (subject, bare), None, study, &options).filter(explains_all);
     }
     let chance = chance::find(place, study, options.is_asked, options.is_stopped).map(Arc::new);
-    conclude(place, (subject, bare), chance, study, options)
+    let finding = conclude(place, (subject, bare), chance, study, options)?;
+    if !finding.may_stand_still() {
+        return Some(finding);
+    }
+    let alone = conclude(place, (subject, bare), None, study, options).filter(explains_all);
+    let is_plainer = |alone: &Finding| alone.ladder.best.set.len() <= finding.ladder.best.set.len();
+    Some(alone.filter(is_plainer).unwrap_or(finding))
 }
 
 /// Whether its effects explain all of a gap.
@@ -216,8 +229,11 @@ fn name_the_plainest(finding: &mut Finding) {
         if !best.set[0].is_parameter_error() {
             let is_certain = best.set[0].numbers() == 0;
             let holds_it = |other: &Alternative| is_certain && other.candidate().numbers() > 0;
-            let is_alias =
-                |other: &Alternative| other.is_same && (other.candidate().is_parameter_error() || holds_it(other));
+            let is_alias = |other: &Alternative| {
+                let candidate = other.candidate();
+                let is_other_name = candidate.is_parameter_error() || is_part(candidate, &best.set[0]);
+                other.is_same && (is_other_name || holds_it(other))
+            };
             let aliases: f64 =
                 answer.alternatives.iter().filter(|other| is_alias(other)).map(|other| other.weight).sum();
             answer.alternatives.retain(|other| !is_alias(other));
@@ -234,6 +250,7 @@ mod tests {
     use crate::effect::EFFECTS;
     use crate::gap::cause::Free;
     use crate::gap::fit::Range;
+    use crate::gap::recorded_tests::{LATE_PUSHER, study};
     use crate::plant::EffectPlace;
 
     fn candidate(id: &str) -> Candidate {
@@ -248,6 +265,19 @@ mod tests {
             free: effect.parameters.iter().map(|parameter| free(parameter.name)).collect(),
             starts: Vec::new(),
         }
+    }
+
+    /// Reports of a pusher whose clock is slow come when others are due, and seem to be lost: the clock alone explains them.
+    #[test]
+    fn reports_that_come_late_are_not_lost() {
+        let study = study(LATE_PUSHER);
+        let place = study.subjects.iter().position(|subject| subject.name == "Pusher").expect("it moves");
+        let is_asked = |id: &str| ["lost-messages", "clock-drift", "dead-time"].contains(&id);
+        let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+        let found = find(place, &study.subjects[place], &study.bare[place], &study, &options).expect("a finding");
+        let named: Vec<&str> = found.ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
+        assert!(found.conclusion == Conclusion::Explained && found.chance.is_none(), "{named:?}");
+        assert_eq!(named, ["clock-drift"]);
     }
 
     /// By itself an effect was worth having; of two, one whose interval holds 0 newtons, or a gain of 1, may be none.

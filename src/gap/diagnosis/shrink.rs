@@ -26,11 +26,19 @@ impl Squares {
         for place in 0..subject.signals.len() {
             let (before, after) = (of_signal(before, place), of_signal(after, place));
             if is_weighed(&before) {
-                self.signals += 1.0;
-                add(&mut self.before, &before);
-                add(&mut self.after, &after);
+                self.add_signal(&before, &after);
             }
         }
+    }
+
+    /// Adds one signal. Without it, or with it, there may be edges in blocks that hold none otherwise: each block is one of both.
+    fn add_signal(&mut self, before: &[SignalScore], after: &[SignalScore]) {
+        self.signals += 1.0;
+        add(&mut self.before, before);
+        add(&mut self.after, after);
+        let blocks = self.before.len().max(self.after.len());
+        self.before.resize(blocks, 0.0);
+        self.after.resize(blocks, 0.0);
     }
 
     /// Adds the signals of a device that is in order: at their floors.
@@ -114,4 +122,42 @@ pub(super) fn shrink(squares: &Squares, adds: bool) -> (Gap, Shrink) {
         explainable_left: Some(after.sqrt()),
     };
     (gap, measured)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::EdgeScore;
+
+    /// A flag that was late in the recording's end, where nothing is scored once the effect is there.
+    #[test]
+    fn edges_of_late_blocks_may_be_there_without_the_effect_alone() {
+        let edge = |at: f64, cost: f64| EdgeScore {
+            to: 1.0,
+            recorded: Some((at, at + 0.01)),
+            predicted: Some(at),
+            error: 0.0,
+            uncertainty: 1e-3,
+            cost,
+            residual: cost.sqrt(),
+        };
+        let scored = |edges: Vec<EdgeScore>| SignalScore {
+            signal: 0,
+            run: 0,
+            cost: edges.iter().map(|edge| edge.cost).sum(),
+            floor_cost: (0.0, 0.0),
+            rms: 0.0,
+            floor: 1e-3,
+            level: None,
+            edges,
+        };
+        let mut squares = Squares::default();
+        squares.add_signal(&[scored(vec![edge(1.0, 8.0), edge(52.0, 8.0)])], &[scored(vec![edge(1.0, 2.0)])]);
+        let (gap, shrink) = shrink(&squares, true);
+        assert_eq!((gap.before, gap.after), (Some(3.0), Some(3.0_f64.sqrt())));
+        assert!(
+            shrink.ratio == Some(0.5) && shrink.ci95.is_some_and(|ends| ends.iter().all(|end| end.is_finite())),
+            "{shrink:?}"
+        );
+    }
 }
