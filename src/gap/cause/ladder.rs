@@ -628,7 +628,8 @@ mod tests {
         let stop = || false;
         let own = [30.0, 1e-3];
         assert!(lets_go_at_once(&falls, &own) && !lets_go_at_once(&falls, &[30.0, 1.0]));
-        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&[falls.clone()], &own).expect("a prediction");
+        let recorded =
+            Bench::new(&subject, Vec::new(), &stop).predict(std::slice::from_ref(&falls), &own).expect("a prediction");
         report_as(&mut subject, &recorded);
         let bench = Bench::new(&subject, Vec::new(), &stop);
         let stiff = spring.free.iter().map(|free| free.range.greatest);
