@@ -648,8 +648,8 @@ fn parameters_of_a_device_are_left_as_they_are_by_all_but_those_that_change_them
     assert_eq!(same, &bench.parameters);
 }
 
-/// A diagnosis compares counts before they are rounded: whatever a report passes keeps the parts of a count that it has, and is within one of what
-/// it is when it is rounded.
+/// A diagnosis compares counts before they are rounded: whatever a report passes keeps the parts of a count that it has, and is within two of what
+/// it is when it is rounded, at both ends of a filter.
 #[test]
 fn parts_of_a_count_pass_every_effect_of_a_report() {
     let gain = |name: &'static str, value: f64| ("gain", "sensor", vec![(name, value)]);

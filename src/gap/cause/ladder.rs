@@ -583,6 +583,23 @@ mod tests {
         assert_eq!(first(1.0), [500.0, 600.0, 700.0]);
     }
 
+    /// A ladder that ends at such a set.
+    fn ending_at(bench: &Bench<'_>, nominal: &Prediction, best: Trial) -> Ladder {
+        Ladder {
+            floor: floor(&bench.subject.score(nominal)),
+            bare: bench.trial(&[], Vec::new()).expect("a trial"),
+            beneath: 0.0,
+            best,
+            ends: None,
+            subject: bench.subject.clone(),
+            singles: Vec::new(),
+            near: Vec::new(),
+            tried: 0,
+            too_few_blocks: None,
+            folds: Folds::Long,
+        }
+    }
+
     /// Friction explains an axis to the last step; a lag beside it, as short as one may be, is none.
     #[test]
     fn an_effect_at_the_end_of_what_it_may_be_goes_where_the_others_leave_nothing() {
@@ -596,20 +613,7 @@ mod tests {
         let shortest = lag.free[0].range.least;
         let set = vec![rubs[0].clone(), lag];
         let at = vec![30.0, shortest];
-        let bare = bench.trial(&[], Vec::new()).expect("a trial");
-        let mut ladder = Ladder {
-            floor: floor(&subject.score(&nominal)),
-            bare,
-            beneath: 0.0,
-            best: bench.trial(&set, at).expect("a trial"),
-            ends: None,
-            subject: subject.clone(),
-            singles: Vec::new(),
-            near: Vec::new(),
-            tried: 0,
-            too_few_blocks: None,
-            folds: Folds::Long,
-        };
+        let mut ladder = ending_at(&bench, &nominal, bench.trial(&set, at).expect("a trial"));
         assert!(drop_unknown(&bench, &mut ladder, 0.0));
         let left: Vec<&str> = ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
         assert_eq!(left, ["coulomb-friction"]);
@@ -634,19 +638,7 @@ mod tests {
         let bench = Bench::new(&subject, Vec::new(), &stop);
         let stiff = spring.free.iter().map(|free| free.range.greatest);
         let at: Vec<f64> = own.into_iter().chain(stiff).collect();
-        let mut ladder = Ladder {
-            floor: floor(&subject.score(&nominal)),
-            bare: bench.trial(&[], Vec::new()).expect("a trial"),
-            beneath: 0.0,
-            best: bench.trial(&[falls, spring], at).expect("a trial"),
-            ends: None,
-            subject: subject.clone(),
-            singles: Vec::new(),
-            near: Vec::new(),
-            tried: 0,
-            too_few_blocks: None,
-            folds: Folds::Long,
-        };
+        let mut ladder = ending_at(&bench, &nominal, bench.trial(&[falls, spring], at).expect("a trial"));
         leave_alone_what_lets_go(&bench, &mut ladder);
         let left: Vec<&str> = ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
         assert_eq!(left, ["stribeck-friction"]);
