@@ -84,8 +84,8 @@ impl Plan {
         Ok((answer, takes))
     }
 
-    /// The machine with what is wrong with it. A machine that can show too little of what was planned is drawn again; of two effects on
-    /// a device whose few flags show nothing grossly, clear ones are enough.
+    /// The machine with what is wrong with it. A machine that can show too little of what was planned is drawn again, and so is an effect
+    /// that hides the other or is hidden by it; of two effects on a device whose few flags show nothing grossly, clear ones are enough.
     fn bench(&self, conditions: Conditions) -> (Bench, Vec<Quirk>, f64) {
         let wanted: Vec<&str> = self.first.iter().map(|(_, spot)| spot.0).collect();
         let mut seeds = Dice::new(self.seed, 6);
@@ -118,7 +118,10 @@ impl Plan {
                 let found = bench.quirk(&ENTRIES[entry], spot, magnitude, &healthy, dice.seed());
                 if let Some((quirk, _)) = found {
                     quirks.push(quirk);
-                    break;
+                    if bench.show_beside(&quirks, Magnitude::Clear.range().0, &healthy) {
+                        break;
+                    }
+                    quirks.pop();
                 }
                 let (device, is_single) = (spot.0, self.first.len() == 1);
                 let taken: Vec<String> = quirks.iter().map(|quirk| quirk.effect.clone()).collect();

@@ -194,21 +194,39 @@ impl Bench {
 
     /// How far these effects carry the training recording from what it would be: what their devices report of it.
     pub fn distance(&self, quirks: &[Quirk], healthy: &Run) -> f64 {
+        self.distance_beside(quirks, &[], healthy)
+    }
+
+    /// How far these effects carry it on from where `others` have it by themselves.
+    fn distance_beside(&self, quirks: &[Quirk], others: &[Quirk], healthy: &Run) -> f64 {
         let machine = self.design.machine();
         let devices: BTreeSet<&str> = quirks.iter().map(|quirk| machine.reporter(&quirk.device)).collect();
-        let others: Vec<Quirk> = quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
+        let moving = |quirks: &[Quirk]| quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
+        let (others, mut all): (Vec<Quirk>, Vec<Quirk>) = (moving(others), moving(quirks));
+        let is_moved = !all.is_empty();
+        all.extend_from_slice(&others);
         let squared = |device: &str| {
-            if others.is_empty() {
+            if !is_moved {
                 return 0.0;
             }
             let signals = healthy.signals_of(device);
-            let seen = self.of_device(&*self.built, &others, (device, self.around.age), healthy);
+            let run = |quirks: &[Quirk]| self.of_device(&*self.built, quirks, (device, self.around.age), healthy);
+            let base = if others.is_empty() { healthy.seen_of(device) } else { run(&others) };
             let hidden = self.hidden(device, healthy);
-            distance(&seen, &healthy.seen_of(device), &signals, &self.around, &hidden).powi(2)
+            distance(&run(&all), &base, &signals, &self.around, &hidden).powi(2)
         };
         let noises = quirks.iter().filter(|quirk| quirk.effect == NOISE);
         let noisy = noises.map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
         (devices.into_iter().map(squared).sum::<f64>() + noisy).sqrt()
+    }
+
+    /// Whether each of these effects shows at least so much beside the others: a dead band may hide what a spring would show alone.
+    pub fn show_beside(&self, quirks: &[Quirk], least: f64, healthy: &Run) -> bool {
+        quirks.iter().enumerate().all(|(at, quirk)| {
+            let others: Vec<Quirk> =
+                quirks.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, quirk)| quirk.clone()).collect();
+            others.is_empty() || self.distance_beside(std::slice::from_ref(quirk), &others, healthy) >= least
+        })
     }
 
     /// How far a level's noise goes beyond what its sensor may have anyway.
