@@ -1,12 +1,14 @@
 //! Which devices part from the machine by themselves, and which only pass on what came to them.
 //!
 //! A device has a gap of its own if what it predicts alone, driven by the recorded commands and by what its neighbours
-//! reported, is not what it reported. Three questions are asked of each of its signals, each with the threshold that the
+//! reported, is not what it reported. Five questions are asked of each of its signals, each with the threshold that the
 //! greatest of 400 chances would pass once in a hundred times (χ² with one degree of freedom: 17.8):
 //!
 //! - Is the cost above its floor, by more than the floor itself is uncertain?
 //! - Does what is left go with the motion: with the value, its slope, the sign of that, its curvature, the time, the way gone?
 //!   A level that is off by a tenth of its noise shows so, though its cost does not.
+//! - Do a few samples in a row cost far more than as many do elsewhere? What happens once or twice is nothing among thousands of samples.
+//! - Does what is left remember itself for longer than noise does? What lies within the noise for seconds shows in no sample, and in their sums.
 //! - Do more edges lie outside of their cycles than strays would?
 //!
 //! What differs in a replay of the whole plant and not alone is inherited.
@@ -28,6 +30,20 @@ use crate::signal_map::Kind;
 pub const THRESHOLD: f64 = 17.8;
 /// How far beyond chance a gap is one though it is less than noise and rounding are, where it goes with the motion.
 pub const FAR_BEYOND: f64 = 5.0;
+/// How many samples in a row are looked at for whether they stand out.
+const ROWS: [usize; 3] = [4, 8, 16];
+/// By how many standard deviations of what so many samples cost a row must stand out. (Of 789 levels of devices with which nothing was wrong the
+/// costliest row of one did by 14.4, that of another by 10.7, and those of all others by less than 8.)
+const STANDS_OUT: f64 = 16.0;
+/// Over how many samples what is left is summed to see whether it remembers itself.
+const SUMMED: [usize; 2] = [16, 32];
+/// What a sample counts at most in such a sum, in standard deviations: one that is far off is none that remembers.
+const CLIPPED: f64 = 3.0;
+/// How many times more such sums may scatter than noise of the memory that was found has it, which rounding hides a part of; and by how many standard
+/// deviations more than that they must. (Of 430 levels of devices with which nothing was wrong the sums of four scattered by more than twice as much, at
+/// most by 2.4 times.)
+const MAY_SCATTER: f64 = 2.5;
+const REMEMBERS: f64 = 5.0;
 /// What moves by less than this share of a step says nothing of a device.
 const LEAST_OF_STEP: f64 = 0.1;
 
@@ -118,6 +134,12 @@ pub fn evidence(subject: &Subject, prediction: &Prediction) -> f64 {
     signals(subject, prediction, &score).iter().map(|signal| signal.evidence).fold(0.0, f64::max)
 }
 
+/// The same of what is left beside an effect, all along: a law that is not all of the truth is off for a moment here and there.
+pub fn evidence_all_along(subject: &Subject, prediction: &Prediction) -> f64 {
+    let score = subject.score(prediction);
+    score.signals.iter().map(|signal| all_along(subject, prediction, signal)).fold(0.0, f64::max)
+}
+
 /// That of one of its signals.
 pub(super) fn evidence_of(place: usize, subject: &Subject, prediction: &Prediction) -> f64 {
     let score = subject.score(prediction);
@@ -156,7 +178,9 @@ fn signal(subject: &Subject, nominal: &Prediction, place: usize, scores: &[&Sign
         (sum / total.max(1) as f64).sqrt()
     };
     let (before, floor) = (mean(|score| score.rms), mean(|score| score.floor));
-    let evidence = |score: &&SignalScore| above_floor(score).max(with_motion(subject, nominal, score).evidence);
+    let evidence = |score: &&SignalScore| {
+        all_along(subject, nominal, score).max(in_a_row(score)).max(remembered(subject, nominal, score))
+    };
     let evidence = scores.iter().map(evidence).fold(0.0, f64::max);
     let (missing, extra) = scores.iter().fold((0, 0), |(m, e), score| (m + score.missing(), e + score.extra()));
     let alone = (missing + extra) as f64 / total.max(1) as f64;
@@ -195,6 +219,57 @@ fn above_floor(score: &SignalScore) -> f64 {
         None => above,
         Some(_) => above * above / (variance + (FLOOR_UNCERTAINTY * mean).powi(2)).max(1.0),
     }
+}
+
+/// By how much its cost is above its floor, or goes with the motion.
+fn all_along(subject: &Subject, prediction: &Prediction, score: &SignalScore) -> f64 {
+    above_floor(score).max(with_motion(subject, prediction, score).evidence)
+}
+
+/// By how much the samples of the costliest row stand out, as a statistic that a chance keeps below [`THRESHOLD`].
+fn in_a_row(score: &SignalScore) -> f64 {
+    let Some(level) = &score.level else { return 0.0 };
+    let count = counted(&level.cost).max(1.0);
+    let (mean, variance) = (score.floor_cost.0 / count, score.floor_cost.1 / count);
+    let by = |row: usize| {
+        let most = level.cost.windows(row).map(|costs| costs.iter().sum::<f64>()).fold(0.0, f64::max);
+        (most - row as f64 * mean) / (row as f64 * variance).sqrt()
+    };
+    let most = ROWS.into_iter().map(by).fold(0.0, f64::max);
+    if most.is_finite() { THRESHOLD * (most / STANDS_OUT).powi(2) } else { 0.0 }
+}
+
+/// How much longer what is left remembers itself than noise does, as a statistic that a chance keeps below [`THRESHOLD`].
+///
+/// Sums of w samples of a noise with memory r scatter with w·σ²·(1 + r)/(1 − r), so that the squares of n of them, in units of that, are χ² with n degrees
+/// of freedom. σ is that of the samples themselves, whatever the floor is thought to be.
+fn remembered(subject: &Subject, prediction: &Prediction, score: &SignalScore) -> f64 {
+    let (run, predicted) = (&subject.runs[score.run], &prediction.runs[score.run][score.signal]);
+    let floor = run.floors[score.signal];
+    let (Some(level), Some(track), Predicted::Level(predicted)) = (&score.level, &run.tracks[score.signal], predicted)
+    else {
+        return 0.0;
+    };
+    // As with the motion; and what shows no noise repeats its rounding.
+    if !floor.shows_noise() || predicted.len() != level.difference.len() || track.values.len() != predicted.len() {
+        return 0.0;
+    }
+    let [_, slopes, ..] = regressors(&level.at, predicted);
+    let off = level.difference.iter().zip(&slopes).map(|(off, slope)| off / floor.rms(*slope));
+    remembers(&off.map(|off| off.clamp(-CLIPPED, CLIPPED)).collect::<Vec<f64>>(), floor)
+}
+
+fn remembers(off: &[f64], floor: Floor) -> f64 {
+    let square = off.iter().map(|off| off * off).sum::<f64>() / off.len().max(1) as f64;
+    let by = |summed: usize| {
+        let unit = MAY_SCATTER * square * summed as f64 / floor.share();
+        let (squares, count) = off.chunks_exact(summed).fold((0.0, 0.0), |(squares, count), samples| {
+            (squares + samples.iter().sum::<f64>().powi(2) / unit.max(f64::MIN_POSITIVE), count + 1.0)
+        });
+        (squares - count) / f64::max(2.0 * count, 1.0).sqrt()
+    };
+    let most = SUMMED.into_iter().map(by).fold(0.0, f64::max);
+    THRESHOLD * (most / REMEMBERS).powi(2)
 }
 
 /// What goes with the motion in one signal.
@@ -314,6 +389,59 @@ mod tests {
         };
         assert!(score.cost < score.floor_cost.0 && above_floor(&score) == 0.0);
         along(&score, &track, &law, floor)
+    }
+
+    /// Two bad samples among thousands are a chance, eight in a row are none, though all of them together cost what they do by chance.
+    #[test]
+    fn what_is_off_for_a_moment_stands_out() {
+        let evidence = |off: &[(usize, usize)]| {
+            let mut cost: Vec<f64> = (0..3000).map(|k| 2.0 * ((k * 7919) % 1009) as f64 / 1009.0).collect();
+            off.iter().for_each(|(from, count)| cost[*from..from + count].fill(16.0));
+            let zeros = vec![0.0; cost.len()];
+            let level = LevelScore { at: zeros.clone(), residual: zeros.clone(), difference: zeros, cost };
+            let total = level.cost.iter().sum();
+            let score = SignalScore {
+                signal: 0,
+                run: 0,
+                cost: total,
+                floor_cost: (3000.0, 3900.0),
+                rms: 0.0,
+                floor: 1.0,
+                level: Some(level),
+                edges: Vec::new(),
+            };
+            assert!(above_floor(&score) < THRESHOLD, "{total}");
+            in_a_row(&score)
+        };
+        assert!(evidence(&[]) < 0.1 * THRESHOLD && evidence(&[(700, 1), (2200, 1)]) < THRESHOLD);
+        assert!(evidence(&[(1500, 8)]) > THRESHOLD);
+    }
+
+    /// A swing of half of the noise for seconds is in no sample and in their sums; noise that remembers itself as it was found to is in neither.
+    #[test]
+    fn what_remembers_itself_for_longer_than_noise_does_is_none() {
+        let mut state = 1_u64;
+        let mut noise = || {
+            let uniform = |state: &mut u64| {
+                *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                (*state >> 11) as f64 / (1_u64 << 53) as f64
+            };
+            (0..12).map(|_| uniform(&mut state)).sum::<f64>() - 6.0
+        };
+        let evidence = |memory: f64, swing: f64, noise: &mut dyn FnMut() -> f64| {
+            let mut last = 0.0;
+            let off: Vec<f64> = (0..2700)
+                .map(|k| {
+                    last = memory * last + (1.0_f64 - memory * memory).sqrt() * noise();
+                    last + swing * (0.022 * f64::from(k)).sin()
+                })
+                .collect();
+            remembers(&off, Floor { step: 1.0, noise: 1.0, memory, ..Floor::default() })
+        };
+        for memory in [0.0, 0.5] {
+            assert!(evidence(memory, 0.0, &mut noise) < 0.5 * THRESHOLD);
+            assert!(evidence(memory, 0.7, &mut noise) > THRESHOLD);
+        }
     }
 
     /// What costs less than its floor may go with the motion: the floor was thought too high.

@@ -81,7 +81,9 @@ pub use cost::{STRAY, STRAY_SPAN_S, unmatched};
 pub use effects::effects_xml;
 pub use floor::{Floor, FloorCosts};
 pub use grid::Grid;
-pub use locate::{FAR_BEYOND, Located, LocatedSignal, Location, THRESHOLD, evidence, gains_with_motion, locate};
+pub use locate::{
+    FAR_BEYOND, Located, LocatedSignal, Location, THRESHOLD, evidence, evidence_all_along, gains_with_motion, locate,
+};
 pub use mask::{MaskError, read_mask};
 pub use overrides::Overrides;
 pub use parts::Origin;

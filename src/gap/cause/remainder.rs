@@ -10,7 +10,7 @@ use super::tangent::{LEAST_OWN, orthonormal, product, take_out};
 use crate::gap::fit::{Range, Slopes};
 use crate::gap::floor::FLOOR_UNCERTAINTY;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
-use crate::gap::{FAR_BEYOND, Predicted, Prediction, Score, THRESHOLD, evidence};
+use crate::gap::{FAR_BEYOND, Predicted, Prediction, Score, THRESHOLD, evidence_all_along};
 use crate::plant::EffectPlace;
 use crate::prototype::kind::PortDescriptor;
 use crate::value::Quantity;
@@ -87,7 +87,7 @@ pub fn remainder(bench: &Bench<'_>, ladder: &Ladder) -> Option<Remainder> {
     let by_friction = of_gap(&bench.subject.score(&*without_friction(bench, best)?)) - share;
     let mut depends = dependences(bench, &prediction, &score);
     // What several floors were each thought to be a little too low is left of no gap: by itself no signal shows that anything is off.
-    let beyond_chance = evidence(bench.subject, &prediction);
+    let beyond_chance = evidence_all_along(bench.subject, &prediction);
     let shows = !depends.is_empty() || shows_by_itself(beyond_chance, share);
     let is_plain = score.signals.iter().any(|signal| signal.level.is_some() && signal.rms > PLAINLY * signal.floor);
     let least_share = may_be_left(by_friction, is_plain).max(left_by_parts(best));
