@@ -10,8 +10,9 @@ use crate::gap::cause::{
 use crate::gap::chance::{self, Chance};
 use crate::gap::fit::Effort;
 use crate::gap::schedule::PART_SPACING;
-use crate::gap::{FAR_BEYOND, Score, Study, Subject, THRESHOLD, evidence};
-use crate::plant::EffectSpec;
+use crate::gap::task::{MOST_AGE_S, Task};
+use crate::gap::{FAR_BEYOND, Overrides, Score, Study, Subject, THRESHOLD, evidence};
+use crate::plant::{EffectPlace, EffectSpec};
 
 /// What a device's recordings say of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +57,22 @@ impl Finding {
         self.chance.as_ref().is_some_and(is_lost) && !self.ladder.best.set.is_empty()
     }
 
+    /// How old its reports are, s, where an effect beside others says so that delays all of them by so little: no other device says how old the machine's
+    /// are, and this one was too far off to.
+    fn seeming_age(&self, study: &Study) -> Option<f64> {
+        const DELAYS: [&str; 2] = ["dead-time", "input-filter"];
+        let best = &self.ladder.best;
+        if best.set.len() < 2 || study.tasks.iter().any(|task| *task != Task::default()) {
+            return None;
+        }
+        let is_delay = |candidate: &Candidate| {
+            let is_whole = candidate.place == EffectPlace::ReportLink && candidate.component.is_none();
+            is_whole && DELAYS.contains(&candidate.effect.id)
+        };
+        let delay = best.values().find(|(candidate, _)| is_delay(candidate))?;
+        delay.1.first().copied().filter(|age_s| *age_s <= MOST_AGE_S)
+    }
+
     /// The effects that it adds: none where nothing is explained.
     pub fn specs(&self) -> Vec<EffectSpec> {
         match self.conclusion {
@@ -83,12 +100,27 @@ pub(super) fn find(
     }
     let chance = chance::find(place, study, options.is_asked, options.is_stopped).map(Arc::new);
     let finding = conclude(place, (subject, bare), chance, study, options)?;
+    if let Some(age_s) = finding.seeming_age(study) {
+        let aged =
+            older(subject, age_s).and_then(|(subject, bare)| conclude(place, (&subject, &bare), None, study, options));
+        let is_plainer = |aged: &Finding| aged.ladder.best.set.len() < finding.ladder.best.set.len();
+        return Some(aged.filter(explains_all).filter(is_plainer).unwrap_or(finding));
+    }
     if !finding.may_stand_still() {
         return Some(finding);
     }
     let alone = conclude(place, (subject, bare), None, study, options).filter(explains_all);
     let is_plainer = |alone: &Finding| alone.ladder.best.set.len() <= finding.ladder.best.set.len();
     Some(alone.filter(is_plainer).unwrap_or(finding))
+}
+
+/// The same device where reports are so old, s.
+fn older(subject: &Subject, age_s: f64) -> Option<(Subject, Bare)> {
+    let mut subject = subject.clone();
+    subject.let_reports_be(age_s);
+    let nominal = subject.predict(&[], &Overrides::none()).ok()?;
+    let bare = Bare::new(&subject, &nominal);
+    Some((subject, bare))
 }
 
 /// Whether its effects explain all of a gap.
