@@ -1,6 +1,7 @@
 //! The class of effects that a recording cannot tell apart, as the independent plants computed it, beside the class that was named.
 
 use super::answer::{Answer, ClassMember, TrueEffect};
+use crate::effect::EFFECTS;
 use crate::gap::report::{Cause, Member, Report, Verdict};
 
 /// The id of a nominal parameter that is wrong.
@@ -11,6 +12,19 @@ const PARAMETER_ERROR: &str = "parameter-error";
 pub fn answers(class: &[ClassMember]) -> Vec<&ClassMember> {
     let effects: Vec<&ClassMember> = class.iter().filter(|member| member.effect != PARAMETER_ERROR).collect();
     if effects.is_empty() { class.iter().collect() } else { effects }
+}
+
+/// The members that must be named: of an effect with more numbers than another of the class, which does the same with fewer, a recording knows no more
+/// than that one says. A lag of the second order stands in the class of one of the first only where it is the truth, and nobody sees which it is.
+fn asked_for(class: &[ClassMember]) -> Vec<&ClassMember> {
+    let all = answers(class);
+    let fewest = all.iter().map(|member| numbers(&member.effect)).min();
+    all.into_iter().filter(|member| Some(numbers(&member.effect)) == fewest).collect()
+}
+
+/// How many numbers an effect has.
+fn numbers(effect: &str) -> usize {
+    EFFECTS.iter().find(|known| known.id == effect).map_or(1, |known| known.parameters.len())
 }
 
 /// What a nominal parameter's name begins with, before its axis, and the effect at its place that a lower or a higher value of it is: permanent
@@ -42,14 +56,14 @@ pub fn is_another_name(truth: &TrueEffect, member: &Member) -> bool {
 }
 
 /// Whether `report` says of `answer`, whose class is known, just what can be known of it: one cause; a sure `effect` where nothing else
-/// could be it, else `ambiguous` with the same class. Of two sets, each member of the one must stand in the other, by device, effect, place and
+/// could be it, else `ambiguous` with the same class, all that are asked for in it. Of two sets, each member of the one must stand in the other, by device, effect, place and
 /// component; where one of the two names no component the device says enough, and a parameter is wrong at any place.
 pub fn is_just(answer: &Answer, report: &Report) -> bool {
     let [cause] = report.cause.as_slice() else { return false };
-    let expected = answers(&answer.class);
-    match (report.verdict, expected.len()) {
+    let expected = asked_for(&answer.class);
+    match (report.verdict, answers(&answer.class).len()) {
         // An alias is as good a name.
-        (Verdict::Effect, 1) => answer.class.iter().any(|member| is_same(member, &named(cause))),
+        (Verdict::Effect, _) if expected.len() == 1 => answer.class.iter().any(|member| is_same(member, &named(cause))),
         (Verdict::Ambiguous, 2..) => {
             let has_effects = expected.iter().any(|member| member.effect != PARAMETER_ERROR);
             let is_alias = |member: &&Member| has_effects && member.effect == PARAMETER_ERROR;
@@ -182,6 +196,25 @@ mod tests {
             judge(&answer(&[BUILD_UP, TIME]), &report(Verdict::Effect, &[BUILD_UP]), 1.0).true_class_size,
             Some(1)
         );
+    }
+
+    /// A lag of the second order that one of the first cannot be told from: the second is one number more.
+    #[test]
+    fn what_fewer_numbers_do_as_well_is_what_must_be_named() {
+        const SECOND: One<'static> = ("second-order-lag", "actuator", None);
+        const FIRST: One<'static> = ("first-order-lag", "actuator", None);
+        const LATE: One<'static> = ("dead-time", "report-link", None);
+        let class = [SECOND, FIRST, LATE];
+        check(&class, Verdict::Ambiguous, &[FIRST, LATE], true);
+        check(&class, Verdict::Ambiguous, &[LATE, FIRST, SECOND], true);
+        check(&class, Verdict::Ambiguous, &[SECOND, FIRST], false);
+        check(&class, Verdict::Ambiguous, &[FIRST, LATE, SWITCH], false);
+        check(&class, Verdict::Effect, &[FIRST], false);
+        check(&class[..2], Verdict::Effect, &[FIRST], true);
+        check(&class[..2], Verdict::Effect, &[SECOND], true);
+        check(&class[..2], Verdict::Ambiguous, &[FIRST, SECOND], true);
+        check(&class[..2], Verdict::Effect, &[LATE], false);
+        check(&[FIRST, LATE], Verdict::Ambiguous, &[FIRST, LATE, SECOND], false);
     }
 
     #[test]
