@@ -9,15 +9,16 @@ use crate::robot::AXES;
 const RANDOM: [&str; 4] = ["noise", "sampling-jitter", "lost-messages", "intermittent"];
 /// Effects of a link that the catalogue has at some signals and that can befall any.
 const OF_LINKS: [&str; 4] = ["dead-time", "stale-hold", "clock-drift", "input-filter"];
-/// What the catalogue has on the one link, and the library on the other as well.
+/// What the catalogue has on the one link, and the library on the other as well; and what it has of levels, and the library of counts.
 const ALSO: &[Entry] = &[
-    also("input-filter", "report-link", &[Law::Share("time_constant", 0.2)]),
-    also("stale-hold", "command-link", &[Law::Grows("time", 0.4)]),
-    also("clock-drift", "command-link", &[Law::Grows("rate", 0.01)]),
+    also("input-filter", "report-link", &[], &[Law::Share("time_constant", 0.2)]),
+    also("stale-hold", "command-link", &[], &[Law::Grows("time", 0.4)]),
+    also("clock-drift", "command-link", &[], &[Law::Grows("rate", 0.01)]),
+    also("hysteresis", "sensor", &[("Motor", "encoder", 6500.0)], &[Law::Grows("width", 0.2)]),
 ];
 
-const fn also(effect: &'static str, place: &'static str, laws: &'static [Law]) -> Entry {
-    Entry { effect, place, spots: &[], laws, tolerated: 0.0 }
+const fn also(effect: &'static str, place: &'static str, spots: &'static [Spot], laws: &'static [Law]) -> Entry {
+    Entry { effect, place, spots, laws, tolerated: 0.0 }
 }
 
 /// Strengths that the search starts from, and how far beyond it goes.

@@ -139,6 +139,17 @@ fn a_drawn_plants_classes_are_in_its_own_names_and_to_its_own_scale() {
     assert!(own.iter().any(|candidate| look.distance(candidate) <= SAME));
 }
 
+/// Play behind a motor is a hysteresis of the encoder that looks from behind it.
+#[test]
+fn a_motor_with_play_may_have_an_encoder_that_sticks() {
+    let speeds = [8.0, -8.0, 12.0, -5.0, 10.0];
+    let mut script = vec![(0.1, "enable", 1.0)];
+    script.extend(speeds.iter().enumerate().map(|(k, speed)| (0.2 + 1.5 * k as f64, "speedTarget", *speed)));
+    let play = at("transmission", quirk("Motor", "backlash", &[("gap", 0.49)]));
+    let found = Rig::new("Motor", &script).class(&play, 8.0);
+    assert_eq!(found, ["backlash at transmission", "hysteresis at sensor"]);
+}
+
 /// A motor at several speeds for most of a minute, its encoder a seventh short: what a small step of the scale changes is less than counts are
 /// rounded to.
 #[test]
