@@ -14,6 +14,8 @@ pub const SLOW_PUSHER: &str = "tests/data/pusher-a-per-cent-slow.cps.jsonl.zst";
 pub const ORDERLY_PUSHER: &str = "tests/data/pusher-in-order.cps.jsonl.zst";
 /// A pusher whose clock is slow, beside a motor and a gripper.
 pub const LATE_PUSHER: &str = "tests/data/pusher-whose-clock-is-slow.cps.jsonl.zst";
+/// A robot whose axes are not square, beside a motor that is as it should be.
+pub const CROOKED_ROBOT: &str = "tests/data/robot-that-is-not-square.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
 

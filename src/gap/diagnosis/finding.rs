@@ -100,12 +100,12 @@ pub(super) fn find(
     }
     let chance = chance::find(place, study, options.is_asked, options.is_stopped).map(Arc::new);
     let finding = conclude(place, (subject, bare), chance, study, options)?;
-    if let Some(age_s) = finding.seeming_age(study) {
-        let aged =
-            older(subject, age_s).and_then(|(subject, bare)| conclude(place, (&subject, &bare), None, study, options));
-        let is_plainer = |aged: &Finding| aged.ladder.best.set.len() < finding.ladder.best.set.len();
-        return Some(aged.filter(explains_all).filter(is_plainer).unwrap_or(finding));
-    }
+    let aged = || {
+        let (subject, bare) = older(subject, finding.seeming_age(study)?)?;
+        let aged = conclude(place, (&subject, &bare), None, study, options).filter(explains_all)?;
+        (aged.ladder.best.set.len() < finding.ladder.best.set.len()).then_some(aged)
+    };
+    let finding = aged().unwrap_or(finding);
     if !finding.may_stand_still() {
         return Some(finding);
     }
@@ -281,9 +281,9 @@ mod tests {
     use super::*;
     use crate::effect::EFFECTS;
     use crate::gap::cause::Free;
+    use crate::gap::cause::axis_tests::report_as;
     use crate::gap::fit::Range;
-    use crate::gap::recorded_tests::{LATE_PUSHER, study};
-    use crate::plant::EffectPlace;
+    use crate::gap::recorded_tests::{LATE_PUSHER, RUBBING_AXIS, study};
 
     fn candidate(id: &str) -> Candidate {
         let effect = EFFECTS.iter().find(|effect| effect.id == id).expect("an effect");
@@ -310,6 +310,38 @@ mod tests {
         let named: Vec<&str> = found.ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
         assert!(found.conclusion == Conclusion::Explained && found.chance.is_none(), "{named:?}");
         assert_eq!(named, ["clock-drift"]);
+    }
+
+    /// An axis that is told inches, reports 0.22 ms old and nobody beside it who says so: a delay of all that it reports is no effect of its own.
+    #[test]
+    fn a_delay_of_all_reports_beside_an_effect_is_their_age() {
+        let mut study = study(RUBBING_AXIS);
+        let place = study.subjects.iter().position(|subject| subject.name == "Axis").expect("it moves");
+        let mut subject = study.subjects[place].clone();
+        study.tasks = vec![Task::default()];
+        subject.runs[0].task = Task::default();
+        let told = Candidate {
+            place: EffectPlace::CommandLink,
+            component: Some("positionTarget".to_owned()),
+            ..candidate("wrong-unit")
+        };
+        let mut aged = subject.clone();
+        aged.let_reports_be(2.2e-4);
+        let recorded = aged.predict(&[told.spec(&[0.0254])], &Overrides::none()).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+        let bare = Bare::new(&subject, &nominal);
+        let is_asked = |id: &str| ["wrong-unit", "dead-time", "input-filter"].contains(&id);
+        let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+        let with_delay = conclude(place, (&subject, &bare), None, &study, &options).expect("a finding");
+        assert_eq!(with_delay.ladder.best.set.len(), 2, "{:?}", with_delay.ladder.best.specs());
+        let found = find(place, &subject, &bare, &study, &options).expect("a finding");
+        assert_eq!(found.conclusion, Conclusion::Explained);
+        let [named] = found.ladder.best.set.as_slice() else { panic!("{:?}", found.ladder.best.specs()) };
+        assert_eq!((named.effect.id, named.place), ("wrong-unit", EffectPlace::CommandLink));
+        // Where a task is known, so is the age.
+        study.tasks = vec![Task { age_s: 1e-4, ..Task::default() }];
+        assert_eq!(with_delay.seeming_age(&study), None);
     }
 
     /// By itself an effect was worth having; of two, one whose interval holds 0 newtons, or a gain of 1, may be none.

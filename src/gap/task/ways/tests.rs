@@ -2,7 +2,7 @@
 
 use super::super::tests::{SIGNALS, recorded};
 use super::*;
-use crate::gap::{Overrides, Predicted, Study, evidence};
+use crate::gap::{Overrides, Predicted, Study, evidence, recorded_tests};
 
 /// How far ways scatter, s: each is somewhere within three times as much.
 const SCATTER_S: f64 = 3e-5;
@@ -52,6 +52,14 @@ fn ways_that_scatter_are_no_gap() {
 fn what_is_told_in_time_has_ways_that_do_not_scatter() {
     let study = study(Task::default(), |_, _| 0.0);
     assert_eq!(study.tasks[0].scatter_s, 0.0);
+}
+
+/// How a robot is wrong whose axes are not square looks a little like ways that scatter, by which a motor would be wrong that is as it should be.
+#[test]
+fn how_one_device_is_wrong_is_no_way_of_commands() {
+    let study = recorded_tests::study(recorded_tests::CROOKED_ROBOT);
+    assert_eq!(study.tasks[0].scatter_s, 0.0);
+    assert!(is_off(&study, "Robot") && !is_off(&study, "Motor"));
 }
 
 /// A command whose way takes it over the border of the task's cycle is taken up a whole cycle sooner or later; each that is is found.
