@@ -173,6 +173,23 @@ fn without_held_out_recordings_spans_are_kept_back() {
     }
 }
 
+/// A belt whose target passes a filter: that shows where it stops and is told less in between, in eight samples of 2700, and one number explains
+/// all of it.
+#[test]
+fn what_shows_in_one_moment_is_named_where_all_of_it_is_explained() {
+    let folder = "tests/data/belt-told-through-a-filter";
+    let plant = model::load(&format!("{folder}/plant.xml")).expect("the belt");
+    let train = vec![read(&plant, &format!("{folder}/train.cps.jsonl.zst"))];
+    let is_asked = |id: &str| DOZEN.contains(&id) || id == "input-filter";
+    let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+    let report = diagnose(&plant, &train, &train, &options).expect("a diagnosis").report;
+    assert_eq!(report.verdict, Verdict::Effect, "{}", report.to_json());
+    let [cause] = report.cause.as_slice() else { panic!("{}", report.to_json()) };
+    assert_eq!((cause.effect.as_str(), cause.component.as_deref()), ("input-filter", Some("velocityTarget")));
+    let [low, high] = cause.parameters[0].ci95;
+    assert!(low < 0.018611 && high > 0.018611, "{low} {high}");
+}
+
 /// The first seconds of a recording, in which the robot moves once.
 #[test]
 fn a_gap_in_too_little_motion_is_not_testable() {

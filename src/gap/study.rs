@@ -72,19 +72,19 @@ impl Study {
             |ways| Ok::<_, StudyError>(Study::aligned(plant, recordings, &[], ways)?.within_tolerances(recordings));
         let mut study = of(Told::AsItActs)?;
         // Where a device is wrong by so much that a motor's few counts are nothing beside it, ways may be found that are how it is wrong.
-        if study.tasks.iter().any(|task| task.scatter_s > 0.0) && study.disorder() > 0.0 {
+        if study.tasks.iter().any(|task| task.scatter_s > 0.0) && study.in_order() < study.subjects.len() {
             let stamped = of(Told::AsStamped)?;
-            if stamped.disorder() < study.disorder() {
+            if stamped.in_order() > study.in_order() {
                 study = stamped;
             }
         }
         Ok(study.with_bays(None)?)
     }
 
-    /// How far its devices are off, by the logarithms of their evidence: 0 where all are in order.
-    fn disorder(&self) -> f64 {
+    /// How many of its devices are in order.
+    fn in_order(&self) -> usize {
         let all = self.subjects.par_iter().zip(&self.bare);
-        all.map(|(subject, bare)| (evidence(subject, &bare.prediction) / THRESHOLD).max(1.0).ln()).sum()
+        all.filter(|(subject, bare)| evidence(subject, &bare.prediction) <= THRESHOLD).count()
     }
 
     /// The same with nominal parameters as they are declared. `known` are tasks of the machine, each with the cycle of the

@@ -1,7 +1,7 @@
 //! Which effect: candidates from the library, a ladder of them, their classes, intervals and what they leave.
 
 #[cfg(test)]
-pub(super) mod axis_tests;
+mod axis_tests;
 mod bare;
 mod bench;
 mod blur;
