@@ -179,7 +179,7 @@ fn signal(subject: &Subject, nominal: &Prediction, place: usize, scores: &[&Sign
     };
     let (before, floor) = (mean(|score| score.rms), mean(|score| score.floor));
     let evidence = |score: &&SignalScore| {
-        all_along(subject, nominal, score).max(in_a_row(score)).max(remembered(subject, nominal, score))
+        all_along(subject, nominal, score).max(in_a_row(subject, score)).max(remembered(subject, nominal, score))
     };
     let evidence = scores.iter().map(evidence).fold(0.0, f64::max);
     let (missing, extra) = scores.iter().fold((0, 0), |(m, e), score| (m + score.missing(), e + score.extra()));
@@ -226,13 +226,20 @@ fn all_along(subject: &Subject, prediction: &Prediction, score: &SignalScore) ->
     above_floor(score).max(with_motion(subject, prediction, score).evidence)
 }
 
-/// By how much the samples of the costliest row stand out, as a statistic that a chance keeps below [`THRESHOLD`].
-fn in_a_row(score: &SignalScore) -> f64 {
-    let Some(level) = &score.level else { return 0.0 };
-    let count = counted(&level.cost).max(1.0);
-    let (mean, variance) = (score.floor_cost.0 / count, score.floor_cost.1 / count);
+/// By how much the samples of the costliest row stand out, as a statistic that a chance keeps below [`THRESHOLD`]. Behind the last change of a level its
+/// reports may have ended, sooner than the recording did.
+fn in_a_row(subject: &Subject, score: &SignalScore) -> f64 {
+    let (Some(level), Some(track)) = (&score.level, &subject.runs[score.run].tracks[score.signal]) else { return 0.0 };
+    let changes = track.values.windows(2).rposition(|pair| pair[0] != pair[1]);
+    let told = if track.values.len() == level.cost.len() { changes.map_or(0, |at| at + 2) } else { level.cost.len() };
+    stands_out(&level.cost[..told], counted(&level.cost), score.floor_cost)
+}
+
+/// The same of `costs`; `floor` is what so many as are `counted` cost where nothing is wrong, and the variance of it.
+fn stands_out(costs: &[f64], counted: f64, floor: (f64, f64)) -> f64 {
+    let (mean, variance) = (floor.0 / counted.max(1.0), floor.1 / counted.max(1.0));
     let by = |row: usize| {
-        let most = level.cost.windows(row).map(|costs| costs.iter().sum::<f64>()).fold(0.0, f64::max);
+        let most = costs.windows(row).map(|costs| costs.iter().sum::<f64>()).fold(0.0, f64::max);
         (most - row as f64 * mean) / (row as f64 * variance).sqrt()
     };
     let most = ROWS.into_iter().map(by).fold(0.0, f64::max);
@@ -397,21 +404,9 @@ mod tests {
         let evidence = |off: &[(usize, usize)]| {
             let mut cost: Vec<f64> = (0..3000).map(|k| 2.0 * ((k * 7919) % 1009) as f64 / 1009.0).collect();
             off.iter().for_each(|(from, count)| cost[*from..from + count].fill(16.0));
-            let zeros = vec![0.0; cost.len()];
-            let level = LevelScore { at: zeros.clone(), residual: zeros.clone(), difference: zeros, cost };
-            let total = level.cost.iter().sum();
-            let score = SignalScore {
-                signal: 0,
-                run: 0,
-                cost: total,
-                floor_cost: (3000.0, 3900.0),
-                rms: 0.0,
-                floor: 1.0,
-                level: Some(level),
-                edges: Vec::new(),
-            };
-            assert!(above_floor(&score) < THRESHOLD, "{total}");
-            in_a_row(&score)
+            let total = cost.iter().sum::<f64>();
+            assert!((total - 3000.0) / (3900.0 + (FLOOR_UNCERTAINTY * 3000.0_f64).powi(2)).sqrt() < 1.0, "{total}");
+            stands_out(&cost, 3000.0, (3000.0, 3900.0))
         };
         assert!(evidence(&[]) < 0.1 * THRESHOLD && evidence(&[(700, 1), (2200, 1)]) < THRESHOLD);
         assert!(evidence(&[(1500, 8)]) > THRESHOLD);
