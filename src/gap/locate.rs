@@ -230,8 +230,12 @@ fn all_along(subject: &Subject, prediction: &Prediction, score: &SignalScore) ->
 /// reports may have ended, sooner than the recording did.
 fn in_a_row(subject: &Subject, score: &SignalScore) -> f64 {
     let (Some(level), Some(track)) = (&score.level, &subject.runs[score.run].tracks[score.signal]) else { return 0.0 };
+    // Where nobody recorded for a while, nobody knows what its last sample before that was of.
+    if track.values.len() != level.cost.len() {
+        return 0.0;
+    }
     let changes = track.values.windows(2).rposition(|pair| pair[0] != pair[1]);
-    let told = if track.values.len() == level.cost.len() { changes.map_or(0, |at| at + 2) } else { level.cost.len() };
+    let told = changes.map_or(0, |at| at + 2);
     stands_out(&level.cost[..told], counted(&level.cost), score.floor_cost)
 }
 
