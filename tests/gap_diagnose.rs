@@ -8,7 +8,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose, kept_back};
-use kinetwin::gap::report::{Report, Verdict};
+use kinetwin::gap::report::{Cause, Report, Verdict};
 use kinetwin::gap::{Recording, Study, locate};
 use kinetwin::plant::Plant;
 use kinetwin::run::model;
@@ -173,21 +173,32 @@ fn without_held_out_recordings_spans_are_kept_back() {
     }
 }
 
+/// What is surely wrong with the plant of a folder by its recording: one effect, of the dozen or one of `further`.
+fn sure_cause(folder: &str, further: &[&str]) -> Cause {
+    let plant = model::load(&format!("{folder}/plant.xml")).expect("the plant");
+    let train = vec![read(&plant, &format!("{folder}/train.cps.jsonl.zst"))];
+    let is_asked = |id: &str| DOZEN.contains(&id) || further.contains(&id);
+    let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+    let report = diagnose(&plant, &train, &train, &options).expect("a diagnosis").report;
+    assert_eq!((report.verdict, report.cause.len()), (Verdict::Effect, 1), "{}", report.to_json());
+    report.cause[0].clone()
+}
+
 /// A belt whose target passes a filter: that shows where it stops and is told less in between, in eight samples of 2700, and one number explains
 /// all of it.
 #[test]
 fn what_shows_in_one_moment_is_named_where_all_of_it_is_explained() {
-    let folder = "tests/data/belt-told-through-a-filter";
-    let plant = model::load(&format!("{folder}/plant.xml")).expect("the belt");
-    let train = vec![read(&plant, &format!("{folder}/train.cps.jsonl.zst"))];
-    let is_asked = |id: &str| DOZEN.contains(&id) || id == "input-filter";
-    let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
-    let report = diagnose(&plant, &train, &train, &options).expect("a diagnosis").report;
-    assert_eq!(report.verdict, Verdict::Effect, "{}", report.to_json());
-    let [cause] = report.cause.as_slice() else { panic!("{}", report.to_json()) };
+    let cause = sure_cause("tests/data/belt-told-through-a-filter", &["input-filter"]);
     assert_eq!((cause.effect.as_str(), cause.component.as_deref()), ("input-filter", Some("velocityTarget")));
     let [low, high] = cause.parameters[0].ci95;
     assert!(low < 0.018611 && high > 0.018611, "{low} {high}");
+}
+
+/// An axis that takes centimetres for inches, alone in its recording: its reports are 0.22 ms old, which is no filter of theirs.
+#[test]
+fn a_delay_of_all_reports_beside_an_effect_is_their_age() {
+    let cause = sure_cause("tests/data/axis-told-another-unit", &["wrong-unit", "input-filter"]);
+    assert_eq!((cause.effect.as_str(), cause.component.as_deref()), ("wrong-unit", Some("positionTarget")));
 }
 
 /// The first seconds of a recording, in which the robot moves once.

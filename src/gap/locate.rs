@@ -1,7 +1,7 @@
 //! Which devices part from the machine by themselves, and which only pass on what came to them.
 //!
 //! A device has a gap of its own if what it predicts alone, driven by the recorded commands and by what its neighbours
-//! reported, is not what it reported. Five questions are asked of each of its signals, each with the threshold that the
+//! reported, is not what it reported. Five questions are asked of each of its signals, each with a threshold that the
 //! greatest of 400 chances would pass once in a hundred times (χ² with one degree of freedom: 17.8):
 //!
 //! - Is the cost above its floor, by more than the floor itself is uncertain?
@@ -19,7 +19,7 @@ use super::floor::{FLOOR_UNCERTAINTY, Floor};
 use super::prediction::{Predicted, Prediction};
 use super::regimes::regimes;
 use super::report::Regime;
-use super::score::{Score, SignalScore};
+use super::score::{LevelScore, Score, SignalScore};
 use super::study::Study;
 use super::subject::Subject;
 use super::track::Track;
@@ -179,7 +179,9 @@ fn signal(subject: &Subject, nominal: &Prediction, place: usize, scores: &[&Sign
     };
     let (before, floor) = (mean(|score| score.rms), mean(|score| score.floor));
     let evidence = |score: &&SignalScore| {
-        all_along(subject, nominal, score).max(in_a_row(subject, score)).max(remembered(subject, nominal, score))
+        let of_samples = Beside::of(subject, nominal, score)
+            .map_or(0.0, |beside| in_a_row(&beside, score.floor_cost).max(remembered(&beside)));
+        all_along(subject, nominal, score).max(of_samples)
     };
     let evidence = scores.iter().map(evidence).fold(0.0, f64::max);
     let (missing, extra) = scores.iter().fold((0, 0), |(m, e), score| (m + score.missing(), e + score.extra()));
@@ -226,17 +228,32 @@ fn all_along(subject: &Subject, prediction: &Prediction, score: &SignalScore) ->
     above_floor(score).max(with_motion(subject, prediction, score).evidence)
 }
 
+/// A level with its track and what was predicted of it, sample beside sample.
+struct Beside<'a> {
+    level: &'a LevelScore,
+    track: &'a Track,
+    predicted: &'a [f64],
+    floor: Floor,
+}
+
+impl<'a> Beside<'a> {
+    /// `None` of edges, and of a recording with blind spans: there samples are left out, and nobody knows what the last before a span was of.
+    fn of(subject: &'a Subject, prediction: &'a Prediction, score: &'a SignalScore) -> Option<Beside<'a>> {
+        let run = &subject.runs[score.run];
+        let (level, track) = (score.level.as_ref()?, run.tracks[score.signal].as_ref()?);
+        let Predicted::Level(predicted) = &prediction.runs[score.run][score.signal] else { return None };
+        let is_whole = [track.values.len(), predicted.len()] == [level.at.len(); 2];
+        is_whole.then_some(Beside { level, track, predicted, floor: run.floors[score.signal] })
+    }
+}
+
 /// By how much the samples of the costliest row stand out, as a statistic that a chance keeps below [`THRESHOLD`]. Behind the last change of a level its
 /// reports may have ended, sooner than the recording did.
-fn in_a_row(subject: &Subject, score: &SignalScore) -> f64 {
-    let (Some(level), Some(track)) = (&score.level, &subject.runs[score.run].tracks[score.signal]) else { return 0.0 };
-    // Where nobody recorded for a while, nobody knows what its last sample before that was of.
-    if track.values.len() != level.cost.len() {
-        return 0.0;
-    }
+fn in_a_row(beside: &Beside<'_>, floor_cost: (f64, f64)) -> f64 {
+    let Beside { level, track, .. } = beside;
     let changes = track.values.windows(2).rposition(|pair| pair[0] != pair[1]);
     let told = changes.map_or(0, |at| at + 2);
-    stands_out(&level.cost[..told], counted(&level.cost), score.floor_cost)
+    stands_out(&level.cost[..told], counted(&level.cost), floor_cost)
 }
 
 /// The same of `costs`; `floor` is what so many as are `counted` cost where nothing is wrong, and the variance of it.
@@ -254,22 +271,18 @@ fn stands_out(costs: &[f64], counted: f64, floor: (f64, f64)) -> f64 {
 ///
 /// Sums of w samples of a noise with memory r scatter with w·σ²·(1 + r)/(1 − r), so that the squares of n of them, in units of that, are χ² with n degrees
 /// of freedom. σ is that of the samples themselves, whatever the floor is thought to be.
-fn remembered(subject: &Subject, prediction: &Prediction, score: &SignalScore) -> f64 {
-    let (run, predicted) = (&subject.runs[score.run], &prediction.runs[score.run][score.signal]);
-    let floor = run.floors[score.signal];
-    let (Some(level), Some(track), Predicted::Level(predicted)) = (&score.level, &run.tracks[score.signal], predicted)
-    else {
-        return 0.0;
-    };
-    // As with the motion; and what shows no noise repeats its rounding.
-    if !floor.shows_noise() || predicted.len() != level.difference.len() || track.values.len() != predicted.len() {
+fn remembered(beside: &Beside<'_>) -> f64 {
+    let Beside { level, predicted, floor, .. } = beside;
+    // What shows no noise repeats its rounding.
+    if !floor.shows_noise() {
         return 0.0;
     }
-    let [_, slopes, ..] = regressors(&level.at, predicted);
+    let slopes = slopes(&level.at, predicted);
     let off = level.difference.iter().zip(&slopes).map(|(off, slope)| off / floor.rms(*slope));
-    remembers(&off.map(|off| off.clamp(-CLIPPED, CLIPPED)).collect::<Vec<f64>>(), floor)
+    remembers(&off.map(|off| off.clamp(-CLIPPED, CLIPPED)).collect::<Vec<f64>>(), *floor)
 }
 
+/// The same of how far samples are off in units of their floor.
 fn remembers(off: &[f64], floor: Floor) -> f64 {
     let square = off.iter().map(|off| off * off).sum::<f64>() / off.len().max(1) as f64;
     let by = |summed: usize| {
@@ -304,22 +317,17 @@ pub fn gains_with_motion(subject: &Subject, prediction: &Prediction, score: &Sco
 
 /// The greatest gain by one regressor of the motion.
 fn with_motion(subject: &Subject, prediction: &Prediction, score: &SignalScore) -> Along {
-    let (run, predicted) = (&subject.runs[score.run], &prediction.runs[score.run][score.signal]);
-    match (&run.tracks[score.signal], predicted) {
-        (Some(track), Predicted::Level(values)) => along(score, track, values, run.floors[score.signal]),
-        _ => Along::default(),
-    }
+    Beside::of(subject, prediction, score).map_or_else(Along::default, |beside| along(&beside, score.floor_cost))
 }
 
-fn along(score: &SignalScore, track: &Track, predicted: &[f64], floor: Floor) -> Along {
-    let Some(level) = &score.level else { return Along::default() };
+fn along(beside: &Beside<'_>, floor_cost: (f64, f64)) -> Along {
+    let Beside { level, predicted, floor, .. } = beside;
     let count = level.residual.len();
-    // In a recording with blind spans samples are left out; the two lists run side by side only without.
-    if count < 50 || predicted.len() != count || track.values.len() != count {
+    if count < 50 {
         return Along::default();
     }
     // Noise that remembers goes further with a motion than it looks: each sample counts less, and their sum scatters more.
-    let unit = (score.floor_cost.0 / counted(level.cost.as_slice()).max(1.0) / floor.share()).max(0.02);
+    let unit = (floor_cost.0 / counted(level.cost.as_slice()).max(1.0) / floor.share()).max(0.02);
     let gain = |regressor: &[f64]| {
         let mean = regressor.iter().sum::<f64>() / count as f64;
         let pairs = || regressor.iter().zip(&level.residual).map(|(x, r)| (x - mean, *r));
@@ -340,15 +348,21 @@ fn counted(costs: &[f64]) -> f64 {
     costs.iter().filter(|cost| **cost > 0.0).count() as f64
 }
 
-/// What of a motion an effect's trace may go with, at each sample.
-fn regressors(at: &[f64], value: &[f64]) -> [Vec<f64>; 6] {
+/// How fast a motion is, at each sample.
+fn slopes(at: &[f64], value: &[f64]) -> Vec<f64> {
     let count = value.len();
-    let slope: Vec<f64> = (0..count)
+    (0..count)
         .map(|k| {
             let (low, high) = (k.saturating_sub(1), (k + 1).min(count - 1));
             (value[high] - value[low]) / (at[high] - at[low]).max(1e-9)
         })
-        .collect();
+        .collect()
+}
+
+/// What of a motion an effect's trace may go with, at each sample.
+fn regressors(at: &[f64], value: &[f64]) -> [Vec<f64>; 6] {
+    let count = value.len();
+    let slope = slopes(at, value);
     let curve: Vec<f64> = (0..count).map(|k| slope[(k + 1).min(count - 1)] - slope[k.saturating_sub(1)]).collect();
     let steepest = slope.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
     let sign = slope.iter().map(|s| if s.abs() > 0.01 * steepest { s.signum() } else { 0.0 }).collect();
@@ -367,7 +381,6 @@ mod tests {
 
     use super::*;
     use crate::gap::Grid;
-    use crate::gap::score::LevelScore;
 
     /// A level that swings slowly, recorded with noise of half of what its floor is thought to be, and `share` of it too much: as its score.
     fn scored(share: f64) -> Along {
@@ -399,7 +412,8 @@ mod tests {
             blind: Vec::new(),
         };
         assert!(score.cost < score.floor_cost.0 && above_floor(&score) == 0.0);
-        along(&score, &track, &law, floor)
+        let level = score.level.as_ref().expect("a level");
+        along(&Beside { level, track: &track, predicted: &law, floor }, score.floor_cost)
     }
 
     /// Two bad samples among thousands are a chance, eight in a row are none, though all of them together cost what they do by chance.

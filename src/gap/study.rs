@@ -69,7 +69,7 @@ impl Study {
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
         let of =
-            |ways| Ok::<_, StudyError>(Study::aligned(plant, recordings, &[], ways)?.within_tolerances(recordings));
+            |told| Ok::<_, StudyError>(Study::aligned(plant, recordings, &[], told)?.within_tolerances(recordings));
         let mut study = of(Told::AsItActs)?;
         // Where a device is wrong by so much that a motor's few counts are nothing beside it, ways may be found that are how it is wrong.
         if study.tasks.iter().any(|task| task.scatter_s > 0.0) && study.in_order() < study.subjects.len() {

@@ -435,19 +435,9 @@ fn is_a_share(bench: &Bench<'_>, (below, next): (&Trial, &Trial), ladder: &Ladde
     };
     let further = next.parameters() - below.parameters();
     let (sum, blocks) = gains(&before, &after);
-    let in_a_moment = || {
-        let is_plain = sum > FAR_BEYOND * least_gain(further, ladder.tried) * next.inflation();
-        let leaves_nothing = |next: Arc<Prediction>| evidence(bench.subject, &next) <= THRESHOLD;
-        let moves_elsewhere = |below: Arc<Prediction>| bench.moving_blocks(&below) > MOVES_ENOUGH;
-        below.set.is_empty()
-            && further <= 1
-            && is_plain
-            && bench.predict(&below.set, &below.at).is_some_and(moves_elsewhere)
-            && bench.predict(&next.set, &next.at).is_some_and(leaves_nothing)
-    };
     let is_confirmed = above > 0.0
         && (sum > EXPLAINED * above && blocks > FEWEST_BLOCKS * further as f64
-            || sum > EXPLAINS_ALL * above && in_a_moment());
+            || sum > EXPLAINS_ALL * above && is_a_moments(bench, (below, next), sum, ladder));
     is_confirmed
         || surely(&bare.blocks) >= part * LEAST_SHARE
         || (!bench.is_rugged() && surely(&before) >= part * LEAST_SHARE_OF_REST)
@@ -460,6 +450,19 @@ const FEWEST_BLOCKS: f64 = 1.9;
 /// One that has a single number is believed in a single event where it explains all of it, far beyond chance, and the device moves at many other times,
 /// at which what it would do did not happen.
 const EXPLAINS_ALL: f64 = 0.9;
+
+/// Whether `next` is the first effect, has one number, gains `sum` far beyond chance and leaves nothing of a device that moves at many other times.
+fn is_a_moments(bench: &Bench<'_>, (below, next): (&Trial, &Trial), sum: f64, ladder: &Ladder) -> bool {
+    let further = next.parameters() - below.parameters();
+    let least = FAR_BEYOND * least_gain(further, ladder.tried) * next.inflation();
+    let moves_elsewhere = |below: Arc<Prediction>| bench.moving_blocks(&below) > MOVES_ENOUGH;
+    let leaves_nothing = |next: Arc<Prediction>| evidence(bench.subject, &next) <= THRESHOLD;
+    below.set.is_empty()
+        && further <= 1
+        && sum > least
+        && bench.predict(&below.set, &below.at).is_some_and(moves_elsewhere)
+        && bench.predict(&next.set, &next.at).is_some_and(leaves_nothing)
+}
 
 /// What is gained in all, and in how many blocks that lies.
 fn gains(before: &[f64], after: &[f64]) -> (f64, f64) {

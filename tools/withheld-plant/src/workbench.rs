@@ -194,39 +194,38 @@ impl Bench {
 
     /// How far these effects carry the training recording from what it would be: what their devices report of it.
     pub fn distance(&self, quirks: &[Quirk], healthy: &Run) -> f64 {
-        self.distance_beside(quirks, &[], healthy)
+        self.distance_from(&[], quirks, healthy)
     }
 
-    /// How far these effects carry it on from where `others` have it by themselves.
-    fn distance_beside(&self, quirks: &[Quirk], others: &[Quirk], healthy: &Run) -> f64 {
+    /// The same from where `others`, which are among them, have it by themselves: what the devices of the rest report of it.
+    fn distance_from(&self, others: &[Quirk], quirks: &[Quirk], healthy: &Run) -> f64 {
         let machine = self.design.machine();
-        let devices: BTreeSet<&str> = quirks.iter().map(|quirk| machine.reporter(&quirk.device)).collect();
-        let moving = |quirks: &[Quirk]| quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
-        let (others, mut all): (Vec<Quirk>, Vec<Quirk>) = (moving(others), moving(quirks));
-        let is_moved = !all.is_empty();
-        all.extend_from_slice(&others);
+        let (noises, own): (Vec<&Quirk>, Vec<&Quirk>) =
+            quirks.iter().filter(|quirk| !others.contains(quirk)).partition(|quirk| quirk.effect == NOISE);
+        let devices: BTreeSet<&str> = own.iter().map(|quirk| machine.reporter(&quirk.device)).collect();
         let squared = |device: &str| {
-            if !is_moved {
-                return 0.0;
-            }
-            let signals = healthy.signals_of(device);
-            let run = |quirks: &[Quirk]| self.of_device(&*self.built, quirks, (device, self.around.age), healthy);
-            let base = if others.is_empty() { healthy.seen_of(device) } else { run(&others) };
-            let hidden = self.hidden(device, healthy);
-            distance(&run(&all), &base, &signals, &self.around, &hidden).powi(2)
+            let run = |quirks: &[Quirk]| {
+                let quirks: Vec<Quirk> = quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
+                match quirks.is_empty() {
+                    true => healthy.seen_of(device),
+                    false => self.of_device(&*self.built, &quirks, (device, self.around.age), healthy),
+                }
+            };
+            let (signals, hidden) = (healthy.signals_of(device), self.hidden(device, healthy));
+            distance(&run(quirks), &run(others), &signals, &self.around, &hidden).powi(2)
         };
-        let noises = quirks.iter().filter(|quirk| quirk.effect == NOISE);
-        let noisy = noises.map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
+        let noisy = noises.into_iter().map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
         (devices.into_iter().map(squared).sum::<f64>() + noisy).sqrt()
     }
 
     /// Whether each of these effects shows at least so much beside the others: a dead band may hide what a spring would show alone.
     pub fn show_beside(&self, quirks: &[Quirk], least: f64, healthy: &Run) -> bool {
-        quirks.iter().enumerate().all(|(at, quirk)| {
-            let others: Vec<Quirk> =
-                quirks.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, quirk)| quirk.clone()).collect();
-            others.is_empty() || self.distance_beside(std::slice::from_ref(quirk), &others, healthy) >= least
-        })
+        let is_alone = quirks.len() < 2;
+        is_alone
+            || (0..quirks.len()).all(|at| {
+                let others = [&quirks[..at], &quirks[at + 1..]].concat();
+                self.distance_from(&others, quirks, healthy) >= least
+            })
     }
 
     /// How far a level's noise goes beyond what its sensor may have anyway.
