@@ -8,6 +8,8 @@
 //! The answers open only against a [`Manifest`]: one line for each case with the SHA-256 of what was answered,
 //! `REPORTS/manifest.sha256`, as `sha256sum` writes it. All cases must be in it, and each file must still be what its line
 //! says: so no report can be written, or changed, once the answers are known, without the manifest showing it.
+//!
+//! Before all cases are written, what is known of them is a [`Draft`], under the same lock.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -25,6 +27,8 @@ pub const ANSWERS: &str = "answers.sealed";
 pub const MANIFEST: &str = "manifest.sha256";
 /// What sealed answers begin with.
 const MAGIC: &[u8] = b"kinetwin-sealed/1\n";
+/// What a part of a draft is authenticated with, before its name.
+const PART: &str = "part of a draft: ";
 const NONCE: usize = 12;
 
 /// Why answers do not open.
@@ -40,6 +44,9 @@ pub enum SealError {
     /// The key's file holds no key.
     #[error("{}: no key: expected 64 hexadecimal digits", path.display())]
     NoKey { path: PathBuf },
+    /// There is nothing to go on with.
+    #[error("{} was not begun, or is whole: expected the parts of an exam that was interrupted", path.display())]
+    NotBegun { path: PathBuf },
     /// The answers' file is of another kind.
     #[error("{}: no sealed answers: expected a file that withheld-plant has written", path.display())]
     NotSealed { path: PathBuf },
@@ -107,8 +114,12 @@ fn hash_of_cases(exam: &Path) -> Result<[u8; 32], SealError> {
 
 /// Where an exam's key lies if nobody says otherwise: beside its folder.
 pub fn default_key(exam: &Path) -> PathBuf {
+    beside(exam, ".key")
+}
+
+fn beside(exam: &Path, ending: &str) -> PathBuf {
     let mut name = exam.file_name().unwrap_or_default().to_owned();
-    name.push(".key");
+    name.push(ending);
     exam.with_file_name(name)
 }
 
@@ -119,15 +130,11 @@ pub fn random_seed() -> u64 {
 
 /// Seals `answers` into an exam's folder, all cases of which are written, under a new key, written to `key`.
 pub fn seal(exam: &Path, key: &Path, answers: &[u8]) -> Result<(), SealError> {
-    let associated = hash_of_cases(exam)?;
-    let secret = ChaCha20Poly1305::generate_key(&mut OsRng);
-    let nonce = ChaCha20Poly1305::generate_nonce(&mut OsRng);
-    let path = exam.join(ANSWERS);
-    let text = ChaCha20Poly1305::new(&secret)
-        .encrypt(&nonce, Payload { msg: answers, aad: &associated })
-        .map_err(|_| SealError::WontOpen { path: path.clone() })?;
-    fs::write(&path, [MAGIC, &nonce, &text].concat()).map_err(at(&path))?;
-    fs::write(key, format!("{}\n", hex(&secret))).map_err(at(key))
+    seal_under(&new_key(key)?, exam, answers)
+}
+
+fn seal_under(secret: &Key, exam: &Path, answers: &[u8]) -> Result<(), SealError> {
+    lock(secret, &hash_of_cases(exam)?, answers, &exam.join(ANSWERS))
 }
 
 /// Opens the answers of an exam against the manifest of what was answered in `reports`.
@@ -135,14 +142,104 @@ pub fn open(exam: &Path, key: &Path, reports: &Path) -> Result<Vec<u8>, SealErro
     Manifest::read(reports)?.check(exam, reports)?;
     let path = exam.join(ANSWERS);
     let sealed = fs::read(&path).map_err(at(&path))?;
-    let rest = sealed.strip_prefix(MAGIC).filter(|rest| rest.len() > NONCE);
-    let (nonce, text) = rest.ok_or_else(|| SealError::NotSealed { path: path.clone() })?.split_at(NONCE);
-    let secret = fs::read_to_string(key).map_err(at(key))?;
-    let secret = unhex(secret.trim()).ok_or_else(|| SealError::NoKey { path: key.to_owned() })?;
-    let associated = hash_of_cases(exam)?;
-    ChaCha20Poly1305::new(Key::from_slice(&secret))
-        .decrypt(Nonce::from_slice(nonce), Payload { msg: text, aad: &associated })
-        .map_err(|_| SealError::WontOpen { path })
+    let sealed = Sealed::of(&sealed, &path)?;
+    sealed.unlocked(&read_key(key)?, &hash_of_cases(exam)?)
+}
+
+fn new_key(path: &Path) -> Result<Key, SealError> {
+    let secret = ChaCha20Poly1305::generate_key(&mut OsRng);
+    fs::write(path, format!("{}\n", hex(&secret))).map_err(at(path))?;
+    Ok(secret)
+}
+
+fn read_key(path: &Path) -> Result<Key, SealError> {
+    let text = fs::read_to_string(path).map_err(at(path))?;
+    unhex(text.trim()).map(Key::from).ok_or_else(|| SealError::NoKey { path: path.to_owned() })
+}
+
+/// Encrypts `text`, authenticated together with `associated`, into the file `path`: the whole of it or nothing.
+fn lock(secret: &Key, associated: &[u8], text: &[u8], path: &Path) -> Result<(), SealError> {
+    let nonce = ChaCha20Poly1305::generate_nonce(&mut OsRng);
+    let sealed = ChaCha20Poly1305::new(secret)
+        .encrypt(&nonce, Payload { msg: text, aad: associated })
+        .map_err(|_| SealError::WontOpen { path: path.to_owned() })?;
+    let new = path.with_extension("new");
+    fs::write(&new, [MAGIC, &nonce, &sealed].concat()).map_err(at(&new))?;
+    fs::rename(&new, path).map_err(at(path))
+}
+
+/// What stands in a file that was locked.
+struct Sealed<'a> {
+    nonce: &'a [u8],
+    text: &'a [u8],
+    path: &'a Path,
+}
+
+impl<'a> Sealed<'a> {
+    fn of(content: &'a [u8], path: &'a Path) -> Result<Sealed<'a>, SealError> {
+        let rest = content.strip_prefix(MAGIC).filter(|rest| rest.len() > NONCE);
+        let (nonce, text) = rest.ok_or_else(|| SealError::NotSealed { path: path.to_owned() })?.split_at(NONCE);
+        Ok(Sealed { nonce, text, path })
+    }
+
+    fn unlocked(&self, secret: &Key, associated: &[u8]) -> Result<Vec<u8>, SealError> {
+        ChaCha20Poly1305::new(secret)
+            .decrypt(Nonce::from_slice(self.nonce), Payload { msg: self.text, aad: associated })
+            .map_err(|_| SealError::WontOpen { path: self.path.to_owned() })
+    }
+}
+
+/// The answers to the cases that are written so far, in files of `DIR.part` beside the exam's folder, each sealed under the exam's own key: an exam
+/// whose making was interrupted goes on from there.
+#[derive(Debug)]
+pub struct Draft {
+    exam: PathBuf,
+    folder: PathBuf,
+    secret: Key,
+}
+
+impl Draft {
+    /// Of an exam of which nothing is written yet, under a new key, written to `key`.
+    pub fn begin(exam: &Path, key: &Path) -> Result<Draft, SealError> {
+        let folder = beside(exam, ".part");
+        fs::create_dir_all(&folder).map_err(at(&folder))?;
+        Ok(Draft { exam: exam.to_owned(), folder, secret: new_key(key)? })
+    }
+
+    /// Of one that was begun, and is not whole.
+    pub fn resume(exam: &Path, key: &Path) -> Result<Draft, SealError> {
+        let folder = beside(exam, ".part");
+        if !folder.is_dir() {
+            return Err(SealError::NotBegun { path: exam.to_owned() });
+        }
+        Ok(Draft { exam: exam.to_owned(), folder, secret: read_key(key)? })
+    }
+
+    fn part(&self, name: &str) -> (PathBuf, String) {
+        (self.folder.join(format!("{name}.sealed")), format!("{PART}{name}"))
+    }
+
+    /// Keeps what is known of one part.
+    pub fn keep(&self, name: &str, content: &[u8]) -> Result<(), SealError> {
+        let (path, associated) = self.part(name);
+        lock(&self.secret, associated.as_bytes(), content, &path)
+    }
+
+    /// What was kept of a part, if anything was.
+    pub fn kept(&self, name: &str) -> Result<Option<Vec<u8>>, SealError> {
+        let (path, associated) = self.part(name);
+        let sealed = match fs::read(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            read => read.map_err(at(&path))?,
+        };
+        Sealed::of(&sealed, &path)?.unlocked(&self.secret, associated.as_bytes()).map(Some)
+    }
+
+    /// Seals all `answers` into the exam's folder, and does away with the parts.
+    pub fn seal(self, answers: &[u8]) -> Result<(), SealError> {
+        seal_under(&self.secret, &self.exam, answers)?;
+        fs::remove_dir_all(&self.folder).map_err(at(&self.folder))
+    }
 }
 
 /// What was answered, file by file.
@@ -293,6 +390,26 @@ mod tests {
         refuses(&exam, "expected 64 hexadecimal digits");
         fs::write(exam[0].join(ANSWERS), "answers").expect("a file");
         refuses(&exam, "no sealed answers");
+    }
+
+    #[test]
+    fn a_draft_goes_on_and_is_sealed_as_a_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [path, key, reports] = exam(folder.path());
+        assert!(matches!(Draft::resume(&path, &key), Err(SealError::NotBegun { .. })));
+        Draft::begin(&path, &key).and_then(|draft| draft.keep("case-001", b"the first truth")).expect("kept");
+        let part = folder.path().join("exam.part").join("case-001.sealed");
+        assert!(!fs::read(&part).expect("a part").windows(5).any(|window| window == b"truth"));
+        let draft = Draft::resume(&path, &key).expect("what was begun");
+        assert_eq!(draft.kept("case-001").expect("it opens"), Some(b"the first truth".to_vec()));
+        assert_eq!(draft.kept("case-002").expect("nothing yet"), None);
+        // A part stands for nothing but what it was kept for.
+        fs::rename(&part, part.with_file_name("case-002.sealed")).expect("renamed");
+        assert!(matches!(draft.kept("case-002"), Err(SealError::WontOpen { .. })));
+        draft.seal(b"both").expect("sealed");
+        answer(&reports, &["case-001", "case-002"]);
+        assert_eq!(open(&path, &key, &reports).expect("open"), b"both");
+        assert!(matches!(Draft::resume(&path, &key), Err(SealError::NotBegun { .. })));
     }
 
     #[test]

@@ -19,6 +19,7 @@ pub struct Arguments {
 const HELP: &str = "\
 Examples:
   withheld-plant cases short --exam short
+  withheld-plant cases final --exam final --resume
   withheld-plant open short --reports short-reports -o answers.json
   withheld-plant --seed 7 --cases 24 --out practice --answers practice.json
   withheld-plant socket pairs --seed 7
@@ -89,6 +90,9 @@ pub struct Cases {
     /// Answers without the classes of effects that cannot be told apart, which take seconds a case
     #[arg(long)]
     pub no_classes: bool,
+    /// Goes on with a folder whose making was interrupted, by the same arguments; what is made stays, and so does the seed
+    #[arg(long)]
+    pub resume: bool,
 }
 
 /// Which exam.

@@ -4,8 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use sealed_answers::SealError;
-use serde::Serialize;
+use sealed_answers::{Draft, SealError};
+use serde::{Deserialize, Serialize};
 
 use crate::arguments::{Arguments, Cases, Command, Exam, Open, Practice};
 use crate::cases::Answer;
@@ -44,6 +44,11 @@ pub enum ExamError {
         #[source]
         source: SocketError,
     },
+    /// What was begun is another exam.
+    #[error(
+        "{} was begun with other arguments: expected the same --exam, --cases, --seed and --no-classes", path.display()
+    )]
+    OtherExam { path: PathBuf },
     /// The answers have no JSON form.
     #[error("failed to write the answers as JSON")]
     Json(#[from] serde_json::Error),
@@ -71,20 +76,59 @@ pub fn run(arguments: Arguments) -> Result<String, ExamError> {
     }
 }
 
+/// What an exam follows from: kept with what is made of it, so that its making can go on.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Begun {
+    exam: String,
+    seed: u64,
+    cases: Option<usize>,
+    classless: bool,
+}
+
+/// By what name.
+const BEGUN: &str = "exam";
+
+impl Begun {
+    fn new(asked: &Cases) -> Begun {
+        let seed = asked.seed.unwrap_or_else(|| match asked.exam {
+            Exam::Short => SHORT_SEED,
+            Exam::Training => TRAINING_SEED,
+            Exam::Final => sealed_answers::random_seed(),
+        });
+        Begun { exam: asked.exam.name().to_owned(), seed, cases: asked.cases, classless: asked.no_classes }
+    }
+
+    /// What `draft` was begun as, which must be what is asked for: a seed that was drawn counts as asked for.
+    fn again(asked: &Cases, draft: &Draft) -> Result<Begun, ExamError> {
+        let other = || ExamError::OtherExam { path: asked.folder.clone() };
+        let begun: Begun = serde_json::from_slice(&draft.kept(BEGUN)?.ok_or_else(other)?)?;
+        let is_drawn = asked.seed.is_none() && asked.exam == Exam::Final;
+        let now = Begun::new(asked);
+        let now = if is_drawn { Begun { seed: begun.seed, ..now } } else { now };
+        if now == begun { Ok(begun) } else { Err(other()) }
+    }
+}
+
 fn cases(asked: &Cases) -> Result<String, ExamError> {
+    let key = asked.key.clone().unwrap_or_else(|| sealed_answers::default_key(&asked.folder));
+    let (draft, begun) = if asked.resume {
+        let draft = Draft::resume(&asked.folder, &key)?;
+        let begun = Begun::again(asked, &draft)?;
+        (draft, begun)
+    } else {
+        is_new(&asked.folder)?;
+        let draft = Draft::begin(&asked.folder, &key)?;
+        let begun = Begun::new(asked);
+        draft.keep(BEGUN, &serde_json::to_vec(&begun)?)?;
+        (draft, begun)
+    };
     let sizes = if asked.exam == Exam::Short { Sizes::SHORT } else { Sizes::WHOLE };
     let sizes = asked.cases.map_or(sizes, |cases| Sizes::WHOLE.scaled(cases));
-    let seed = asked.seed.unwrap_or_else(|| match asked.exam {
-        Exam::Short => SHORT_SEED,
-        Exam::Training => TRAINING_SEED,
-        Exam::Final => sealed_answers::random_seed(),
-    });
     let is_short = asked.exam == Exam::Short && asked.cases.is_none();
     let sites = if is_short { Sites::Rig } else { Sites::All };
     let conditions = Conditions { classless: asked.no_classes, ..Conditions::default() };
-    let answers = make(&asked.folder, plans(sizes, sites, seed), seed, asked.exam.name(), conditions)?;
-    let key = asked.key.clone().unwrap_or_else(|| sealed_answers::default_key(&asked.folder));
-    sealed_answers::seal(&asked.folder, &key, &answers)?;
+    let made = make(&asked.folder, plans(sizes, sites, begun.seed), conditions, Some(&draft))?;
+    draft.seal(&answers(asked.exam.name(), begun.seed, made)?)?;
     Ok(format!("{} cases in {}, the key of their answers in {}", sizes.sum(), asked.folder.display(), key.display()))
 }
 
@@ -98,8 +142,9 @@ fn practice(asked: &Practice) -> Result<String, ExamError> {
         Some(effect) => of_effect(effect, asked.cases, asked.on, asked.seed)
             .ok_or_else(|| ExamError::NoSuchEffect(effect.clone()))?,
     };
-    let answers = make(&asked.out, plans, asked.seed, "practice", conditions)?;
-    write(&asked.answers, &answers)?;
+    is_new(&asked.out)?;
+    let made = make(&asked.out, plans, conditions, None)?;
+    write(&asked.answers, &answers("practice", asked.seed, made)?)?;
     Ok(format!("{} cases in {}, their answers in {}", asked.cases, asked.out.display(), asked.answers.display()))
 }
 
@@ -110,16 +155,30 @@ fn open(asked: &Open) -> Result<String, ExamError> {
     Ok(format!("the answers of {} are in {}", asked.folder.display(), asked.output.display()))
 }
 
-/// Makes all cases; gives their answers as JSON.
-fn make(folder: &Path, plans: Vec<Plan>, seed: u64, exam: &str, conditions: Conditions) -> Result<Vec<u8>, ExamError> {
-    if folder.exists() {
-        return Err(ExamError::Exists { path: folder.to_owned() });
-    }
+fn is_new(folder: &Path) -> Result<(), ExamError> {
+    if folder.exists() { Err(ExamError::Exists { path: folder.to_owned() }) } else { Ok(()) }
+}
+
+/// Makes all cases, but for those whose answers `draft` has kept; gives all answers, in the order of the cases.
+fn make(
+    folder: &Path,
+    plans: Vec<Plan>,
+    conditions: Conditions,
+    draft: Option<&Draft>,
+) -> Result<Vec<Answer>, ExamError> {
     let digits = plans.len().to_string().len().max(3);
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let make = |number: usize, plan: &Plan| {
-        let path = folder.join(format!("case-{:0digits$}", number + 1));
-        plan.make(&path, conditions).map_err(|source| ExamError::Write { path, source })
+    let make = |number: usize, plan: &Plan| -> Result<Answer, ExamError> {
+        let case = format!("case-{:0digits$}", number + 1);
+        if let Some(kept) = draft.map(|draft| draft.kept(&case)).transpose()?.flatten() {
+            return Ok(serde_json::from_slice(&kept)?);
+        }
+        let path = folder.join(&case);
+        let answer = made_anew(plan, &path, conditions).map_err(|source| ExamError::Write { path, source })?;
+        if let Some(draft) = draft {
+            draft.keep(&case, &serde_json::to_vec(&answer)?)?;
+        }
+        Ok(answer)
     };
     // Some take a hundred times as long as others: each worker takes the next one that is left.
     let next = AtomicUsize::new(0);
@@ -138,7 +197,15 @@ fn make(folder: &Path, plans: Vec<Plan>, seed: u64, exam: &str, conditions: Cond
         }
     }
     cases.sort_by(|one, next| one.case.cmp(&next.case));
-    answers(exam, seed, cases)
+    Ok(cases)
+}
+
+/// Makes a case in a folder, where there may be a part of it that was left when its making was interrupted.
+fn made_anew(plan: &Plan, folder: &Path, conditions: Conditions) -> io::Result<Answer> {
+    if folder.exists() {
+        std::fs::remove_dir_all(folder)?;
+    }
+    plan.make(folder, conditions)
 }
 
 /// All answers of an exam as JSON.

@@ -16,7 +16,8 @@
 //! What a machine built otherwise within its tolerances would show as well tells nobody of an effect: of the differences d of the
 //! levels that part is taken away which its measures explain, by their own runs J and what is known of them beforehand:
 //! D² = d·d − dᵀJ(1 + JᵀJ)⁻¹Jᵀd. So is what an age of the reports would show that the other devices leave possible. Counts are compared as
-//! they are before they are rounded, as levels are: what rounding leaves unsure is in their unit.
+//! they are before they are rounded, as levels are: what rounding leaves unsure is in their unit. Of flags, which have no slope, those reports
+//! count in which the run differs from one of the machine with a measure at a bound of its tolerance, whichever of these runs comes nearest.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde::{Deserialize, Serialize};
@@ -63,6 +64,8 @@ pub struct Hidden {
     columns: Vec<Vec<f64>>,
     /// Of the columns' squares, with what is known of the measures beforehand.
     known: Cholesky<f64, Dyn>,
+    /// How the flags move with each measure at a bound of its tolerance.
+    flags: Vec<Vec<f64>>,
 }
 
 impl Hidden {
@@ -75,7 +78,20 @@ impl Hidden {
             own + product(&columns[a], &columns[b])
         });
         let known = squares.cholesky().expect("a sum of squares and one is positive definite");
-        Hidden { columns, known }
+        Hidden { columns, known, flags: Vec::new() }
+    }
+
+    /// With runs in which one measure each is at a bound of its tolerance: what they do to flags.
+    pub fn with_bounds(self, at_bounds: &[Seen], base: &Seen, signals: &[Signal]) -> Hidden {
+        let flags = at_bounds.iter().map(|bound| flags_differ(bound, base, signals).collect()).collect();
+        Hidden { flags, ..self }
+    }
+
+    /// The square of the distance of flags that differ so.
+    fn flags_squared(&self, differ: &[f64]) -> f64 {
+        let by_none = differ.iter().filter(|differs| **differs != 0.0).count();
+        let by_one = |bound: &Vec<f64>| bound.iter().zip(differ).filter(|(bound, differs)| bound != differs).count();
+        REPORT * self.flags.iter().map(by_one).fold(by_none, usize::min) as f64
     }
 
     /// How much of the square of a distance the measures can take away.
@@ -88,7 +104,8 @@ impl Hidden {
 
 /// The distance D of two runs of a device, but for what its `hidden` measures can take away of it.
 pub fn distance(one: &Seen, other: &Seen, signals: &[Signal], around: &Surroundings, hidden: &Hidden) -> f64 {
-    (levels_apart(one, other, signals, around, hidden).powi(2) + flags_apart(one, other, signals)).sqrt()
+    let differ: Vec<f64> = flags_differ(one, other, signals).collect();
+    (levels_apart(one, other, signals, around, hidden).powi(2) + hidden.flags_squared(&differ)).sqrt()
 }
 
 /// The same of their levels alone.
@@ -157,14 +174,16 @@ impl Unsure {
     }
 }
 
-fn flags_apart(one: &Seen, other: &Seen, signals: &[Signal]) -> f64 {
-    let mut sum = 0.0;
-    for (a, b) in one.values.iter().zip(&other.values) {
-        let flags =
-            signals.iter().zip(a).zip(b).filter(|((signal, _), _)| matches!(signal.kind, Kind::Flag | Kind::Code));
-        sum += flags.filter(|((_, a), b)| a != b).count() as f64 * 12.0;
-    }
-    sum
+/// The square of a report's distance in which a flag differs.
+const REPORT: f64 = 12.0;
+
+/// By report, the differences of all flags and codes.
+fn flags_differ<'a>(one: &'a Seen, other: &'a Seen, signals: &'a [Signal]) -> impl Iterator<Item = f64> + 'a {
+    let of = move |(a, b): (&'a Vec<f64>, &'a Vec<f64>)| {
+        let flags = signals.iter().zip(a.iter().zip(b)).filter(|(signal, _)| signal.kind.is_edge());
+        flags.map(|(_, (a, b))| a - b).collect::<Vec<f64>>()
+    };
+    one.values.iter().zip(&other.values).flat_map(of)
 }
 
 fn product(one: &[f64], other: &[f64]) -> f64 {
@@ -202,6 +221,23 @@ mod tests {
         let four = (4.0 * 40.0e-6_f64).sqrt();
         let found = noise_beyond(&signal, four, &around, 2000);
         assert!((found - 1000.0_f64.sqrt() * 4.0_f64.ln()).abs() < 1.0, "{found}");
+    }
+
+    /// A flag that comes three reports late, of which a measure at its bound explains two; and one that comes early, which it does not.
+    #[test]
+    fn of_a_flag_counts_what_no_bound_of_a_measure_explains() {
+        let signals = [Signal { name: "Pusher.extended".into(), kind: Kind::Flag, quantum: 0.0, sigma: 0.0 }];
+        let from = |first: usize| Seen {
+            due: vec![0.0; 20],
+            values: (0..20).map(|at| vec![f64::from(u8::from(at >= first))]).collect(),
+        };
+        let around = Surroundings::draw(&mut crate::chance::Dice::new(1, 2));
+        let base = from(10);
+        let hidden = || Hidden::new(&[], &base, &signals, &around);
+        let off = |first: usize, hidden: &Hidden| distance(&from(first), &base, &signals, &around, hidden).powi(2);
+        assert!((off(13, &hidden()) - 36.0).abs() < 1e-9);
+        let bounded = hidden().with_bounds(&[from(12)], &base, &signals);
+        assert!((off(13, &bounded) - 12.0).abs() < 1e-9 && (off(7, &bounded) - 36.0).abs() < 1e-9);
     }
 
     #[test]

@@ -79,7 +79,9 @@ pub struct Plant {
     pub signals: Vec<Signal>,
     pub quirks: Vec<Quirk>,
     /// How many drives besides those of these devices move, each from its instant on; sorted.
-    pub company: Vec<(f64, usize)>,
+    company: Vec<(f64, usize)>,
+    /// So many of those instants have come.
+    come: usize,
     /// How many drives of each device moved, from when on: as it has run so far.
     pub moved: Vec<(f64, Vec<usize>)>,
 }
@@ -92,7 +94,7 @@ impl Plant {
         signals: Vec<Signal>,
         quirks: &[Quirk],
     ) -> Plant {
-        Plant { devices, commands, signals, quirks: quirks.to_vec(), company: Vec::new(), moved: Vec::new() }
+        Plant { devices, commands, signals, quirks: quirks.to_vec(), company: Vec::new(), come: 0, moved: Vec::new() }
     }
 
     /// How many drives besides those of `device` moved, from when on, as it has run so far.
@@ -105,7 +107,7 @@ impl Plant {
     pub fn keep(&mut self, device: &str, company: Vec<(f64, usize)>) {
         self.devices.retain(|(name, _)| name == device);
         self.signals.retain(|signal| signal.parts().0 == device);
-        self.company = company;
+        (self.company, self.come) = (company, 0);
     }
 
     /// With counters that tell parts of a count.
@@ -118,17 +120,22 @@ impl Plant {
     /// whatever is `watched` at every step, of everything else at the sorted `samples` only.
     pub fn run(&mut self, commands: &[Command], samples: &[f64], watched: &[bool], end: f64) -> Vec<Stream> {
         let mut streams: Vec<Stream> = self.signals.iter().map(|signal| Stream::new(signal.kind.is_edge())).collect();
+        let is_kept: Vec<bool> =
+            self.signals.iter().zip(watched).map(|(signal, watched)| *watched || signal.kind.is_edge()).collect();
+        let is_any_kept = is_kept.contains(&true);
         let (mut now, mut values) = (0.0, Vec::new());
         let (mut commands, mut samples) = (commands.iter().peekable(), samples.iter().peekable());
         loop {
             while let Some(command) = commands.next_if(|command| command.at <= now) {
                 self.tell(now, command);
             }
-            self.read(now, &mut values);
             let is_sample = samples.next_if(|sample| **sample <= now).is_some();
-            for (at, stream) in streams.iter_mut().enumerate() {
-                if is_sample || watched[at] || self.signals[at].kind.is_edge() {
-                    stream.push(now, values[at]);
+            if is_sample || is_any_kept {
+                self.read(now, &mut values);
+                for ((stream, value), is_kept) in streams.iter_mut().zip(&values).zip(&is_kept) {
+                    if is_sample || *is_kept {
+                        stream.push(now, *value);
+                    }
                 }
             }
             if now >= end {
@@ -165,8 +172,11 @@ impl Plant {
             self.moved.push((now - span, moving().collect()));
         }
         let own: usize = moving().sum();
-        let company = self.company.partition_point(|(from, _)| *from <= now - span + 1e-12).checked_sub(1);
-        let moving = own + company.map_or(0, |at| self.company[at].1);
+        while self.company.get(self.come).is_some_and(|(from, _)| *from <= now - span + 1e-12) {
+            self.come += 1;
+        }
+        let company = self.come.checked_sub(1).map_or(0, |at| self.company[at].1);
+        let moving = own + company;
         for (_, device) in &mut self.devices {
             let others = moving - device.moving();
             device.advance(now, span, others);

@@ -88,6 +88,7 @@ pub struct Said {
 }
 
 /// What was seen of each signal at each report's instant, before noise and rounding.
+#[derive(Clone, Debug)]
 pub struct Seen {
     /// When each report was due.
     pub due: Vec<f64>,

@@ -134,7 +134,8 @@ impl Servo {
     fn exerted(&self, asked: f64, others: usize) -> f64 {
         let side = if asked < 0.0 { self.backwards } else { 1.0 };
         let fade = self.fades.map_or(1.0, |(share, _)| 1.0 - share * self.heat);
-        let force = asked * self.gain * side * fade * self.supply.powi(others as i32);
+        let supply = if self.supply != 1.0 { self.supply.powi(others as i32) } else { 1.0 };
+        let force = asked * self.gain * side * fade * supply;
         if self.saturates.is_finite() { self.saturates * (force / self.saturates).tanh() } else { force }
     }
 
@@ -253,6 +254,12 @@ impl Device for Servo {
     }
 }
 
+/// exp(−x), and nothing where that is less than a number can say: the slow way to nothing is taken at each step of a slide.
+fn fades(x: f64) -> f64 {
+    const GONE: f64 = 700.0;
+    if x < GONE { (-x).exp() } else { 0.0 }
+}
+
 /// Bristles.
 #[derive(Clone, Debug)]
 struct Friction {
@@ -324,7 +331,8 @@ impl Friction {
         let warmth = self.warms.map_or(0.0, |(rise, time)| rise * (1.0 - (-self.clock / time).exp()));
         let along =
             self.along.map_or(0.0, |[amplitude, period, phase]| amplitude * (TAU * position / period + phase).sin());
-        let falls = self.stribeck * (-(speed / self.stribeck_speed).powi(2)).exp();
+        let falls =
+            if self.stribeck > 0.0 { self.stribeck * fades((speed / self.stribeck_speed).powi(2)) } else { 0.0 };
         (self.coulomb * (1.0 + warmth) + along + falls + self.by_load * drive.abs()).max(0.0)
     }
 
@@ -343,7 +351,7 @@ impl Friction {
             self.bend + speed * h
         } else {
             let settles = speed.signum() * most / stiffness;
-            settles + (self.bend - settles) * (-decay * h).exp()
+            settles + (self.bend - settles) * fades(decay * h)
         };
         let rate = (self.bend - before) / h;
         // Damping of the bristles, so that a mass of some kilograms does not ring on them.

@@ -38,7 +38,11 @@ impl Stream {
 
     /// What it is at `at`. Before its first point it is what that says.
     pub fn at(&self, at: f64) -> f64 {
-        let after = self.points.partition_point(|(time, _)| *time <= at);
+        self.before(self.points.partition_point(|(time, _)| *time <= at), at)
+    }
+
+    /// What it is at `at`, where its first point after that is the one at `after`.
+    fn before(&self, after: usize, at: f64) -> f64 {
         let before = self.points.get(after.saturating_sub(1)).copied().unwrap_or_default();
         match self.points.get(after) {
             Some(&(time, value)) if !self.is_edge && after > 0 => {
@@ -113,10 +117,14 @@ impl Stream {
         }
         let mut out = Stream::new(true);
         out.push(0.0, self.at(0.0));
+        let mut after = 0;
         for k in 0..=(end / time) as usize {
             let at = phase + k as f64 * time;
             if at > 0.0 && is_fresh(at) {
-                out.push(at, self.at(at));
+                while self.points.get(after).is_some_and(|(time, _)| *time <= at) {
+                    after += 1;
+                }
+                out.push(at, self.before(after, at));
             }
         }
         out

@@ -244,18 +244,29 @@ impl Bench {
         }
         let age = self.around.age;
         let base = healthy.seen_of(device);
-        let mut moved = self.with_each_larger(device, healthy);
+        let signals = healthy.signals_of(device);
+        let mut moved = self.with_each_larger(device, self.deviation(), healthy);
         let older = self.of_device(&*self.built, &[], (device, age + self.age_unsure(device, healthy)), healthy);
         moved.push(older);
-        let hidden = Rc::new(Hidden::new(&moved, &base, &healthy.signals_of(device), &self.around));
+        let mut hidden = Hidden::new(&moved, &base, &signals, &self.around);
+        if signals.iter().any(|signal| signal.kind.is_edge()) {
+            let bounds = [self.tolerance, -self.tolerance];
+            let at_bounds = bounds.map(|bound| self.with_each_larger(device, bound, healthy)).concat();
+            hidden = hidden.with_bounds(&at_bounds, &base, &signals);
+        }
+        let hidden = Rc::new(hidden);
         self.hidden.borrow_mut().insert(device.to_owned(), hidden.clone());
         hidden
     }
 
-    /// What is seen of a device with each of its measures larger by a standard deviation of what is drawn anywhere within its tolerance.
-    fn with_each_larger(&self, device: &str, healthy: &Run) -> Vec<Seen> {
-        let share = self.tolerance / 3.0_f64.sqrt();
-        let larger = if share > 0.0 { with_each_larger(&*self.built, device, share) } else { Vec::new() };
+    /// A standard deviation of a measure that is drawn anywhere within its tolerance, as a share of it.
+    fn deviation(&self) -> f64 {
+        self.tolerance / 3.0_f64.sqrt()
+    }
+
+    /// What is seen of a device with each of its measures larger by this share of itself; nothing where it is built exactly.
+    fn with_each_larger(&self, device: &str, share: f64, healthy: &Run) -> Vec<Seen> {
+        let larger = if share != 0.0 { with_each_larger(&*self.built, device, share) } else { Vec::new() };
         larger.iter().map(|built| self.of_device(&**built, &[], (device, self.around.age), healthy)).collect()
     }
 
@@ -272,7 +283,8 @@ impl Bench {
                 let (base, signals) = (healthy.seen_of(device), healthy.signals_of(device));
                 // Where devices touch each other, each measure of each of them would be a run of all.
                 let is_alone = !self.design.is_connected();
-                let moved = if is_alone { self.with_each_larger(device, healthy) } else { Vec::new() };
+                let moved =
+                    if is_alone { self.with_each_larger(device, self.deviation(), healthy) } else { Vec::new() };
                 let hidden = Hidden::new(&moved, &base, &signals, &self.around);
                 levels_apart(&older.seen_of(device), &base, &signals, &self.around, &hidden) / OLDER
             };
@@ -299,7 +311,7 @@ impl Bench {
             script: script.iter().filter(own).cloned().collect(),
             company: plant.company_of(device),
             seed: self.seed_of(Part::Train),
-            share: self.tolerance / 3.0_f64.sqrt(),
+            share: self.deviation(),
         };
         classes::class(&alone, quirk, Part::Train.seconds())
     }
