@@ -81,9 +81,12 @@ pub struct Answer {
     pub magnitude: Magnitude,
     pub effects: Vec<TrueEffect>,
     /// All effects that nobody can tell from the one effect in this recording, itself included. Empty where it was not computed:
-    /// of faint cases, of several effects, and in answers that were sealed before there were classes.
+    /// of faint cases, on the line, and in answers that were sealed before there were classes.
     #[serde(default)]
     pub class: Vec<ClassMember>,
+    /// Of several effects, in their order: the same of each, beside the others.
+    #[serde(default)]
+    pub classes: Vec<Vec<ClassMember>>,
     /// What kind of device the first effect is on, by the names of the rig: plants give their devices names of their own.
     #[serde(default)]
     pub kind: Option<String>,

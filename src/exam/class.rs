@@ -75,6 +75,13 @@ pub fn is_just(answer: &Answer, report: &Report) -> bool {
     }
 }
 
+/// Whether a cause, or one that the report cannot tell from it, is one of a true class.
+pub fn holds(class: &[ClassMember], cause: &Cause) -> bool {
+    let own = named(cause);
+    let mut all = std::iter::once(&own).chain(&cause.class);
+    all.any(|member| class.iter().any(|truth| is_same(truth, member)))
+}
+
 /// A cause as a member, its parameter's name as its component.
 pub fn named(cause: &Cause) -> Member {
     let member = cause.member();
@@ -129,6 +136,7 @@ mod tests {
             magnitude: Magnitude::Clear,
             effects: vec![truth],
             class,
+            classes: Vec::new(),
             kind: None,
         }
     }

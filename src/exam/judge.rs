@@ -35,6 +35,7 @@ pub struct Judged {
     /// It stands among causes, their classes or the rivals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub truth_named: Option<bool>,
+    /// Two effects: each is the answer of a cause of its own, by its own name or by that of one that the recording cannot tell from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub both_right: Option<bool>,
     /// Of the parameters with a truth: how many lie in their interval, and how many there are.
@@ -84,7 +85,7 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
         single_right: is_single.then(single),
         truth_in_class: is_single.then(in_class),
         truth_named: is_single.then(|| truths.iter().all(|truth| named(truth) || rival(truth))),
-        both_right: is_two.then(|| truths.iter().all(named)),
+        both_right: is_two.then(|| each_is_named(answer, report)),
         covered: if is_single && in_class() { covered(&truths[0], report) } else { [0, 0] },
         weight: report.cause.first().map(|cause| weight_of_class(cause, report)),
         class_size: report.cause.first().map_or(0, |cause| cause.class.len()),
@@ -150,6 +151,21 @@ fn devices_are_right(truths: &[TrueEffect], report: &Report) -> bool {
     let wrong: BTreeSet<&str> = truths.iter().map(|truth| truth.device.as_str()).collect();
     let first: BTreeSet<&str> = report.devices.iter().take(wrong.len()).map(|gap| gap.device.as_str()).collect();
     wrong == first
+}
+
+/// Whether each of the effects is the answer of a cause of its own: its name, or that of another of its class, in the cause or in its class.
+fn each_is_named(answer: &Answer, report: &Report) -> bool {
+    let names = |cause: &Cause, at: usize| {
+        let class = answer.classes.get(at);
+        of_class(cause, &answer.effects[at]) || class.is_some_and(|class| class::holds(class, cause))
+    };
+    // Of the causes, which are few, any order.
+    fn rest(left: &[usize], at: usize, count: usize, names: &dyn Fn(usize, usize) -> bool) -> bool {
+        let taken = |cause: usize| left.iter().copied().filter(|other| *other != cause).collect::<Vec<usize>>();
+        at == count || left.iter().any(|cause| names(*cause, at) && rest(&taken(*cause), at + 1, count, names))
+    }
+    let all: Vec<usize> = (0..report.cause.len()).collect();
+    rest(&all, 0, answer.effects.len(), &|cause, at| names(&report.cause[cause], at))
 }
 
 fn of_class(cause: &Cause, truth: &TrueEffect) -> bool {

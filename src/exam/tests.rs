@@ -15,7 +15,7 @@ fn truth(device: &str, effect: &str, place: &str) -> TrueEffect {
 }
 
 fn answer(case: &str, sort: Sort, magnitude: Magnitude, effects: Vec<TrueEffect>) -> Answer {
-    Answer { case: case.to_owned(), sort, magnitude, effects, class: Vec::new(), kind: None }
+    Answer { case: case.to_owned(), sort, magnitude, effects, class: Vec::new(), classes: Vec::new(), kind: None }
 }
 
 fn report(verdict: Verdict, causes: &[(&str, &str, EffectPlace)]) -> Report {
@@ -94,6 +94,25 @@ fn a_class_that_holds_the_truth_is_right_and_both_of_two_must_be_found() {
     let [one, other] = [("Axis", "backlash"), ("Belt", "belt-slip")].map(|(d, e)| (d, e, EffectPlace::Transmission));
     assert_eq!(judge(&two, &report(Verdict::Effect, &[other, one]), 1.0).both_right, Some(true));
     assert_eq!(judge(&two, &report(Verdict::Effect, &[one]), 1.0).both_right, Some(false));
+
+    // What nobody can tell from the one is as good a name of it, but not of both.
+    let scale = ("Belt", "scale-error", EffectPlace::Transmission);
+    let member = |device: &str, effect: &str| ClassMember {
+        device: device.to_owned(),
+        component: None,
+        effect: effect.to_owned(),
+        place: "transmission".to_owned(),
+    };
+    assert_eq!(judge(&two, &report(Verdict::Effect, &[one, scale]), 1.0).both_right, Some(false));
+    let classes =
+        vec![vec![member("Axis", "backlash")], vec![member("Belt", "belt-slip"), member("Belt", "scale-error")]];
+    let known = Answer { classes, ..two.clone() };
+    assert_eq!(judge(&known, &report(Verdict::Effect, &[one, scale]), 1.0).both_right, Some(true));
+    assert_eq!(judge(&known, &report(Verdict::Effect, &[scale]), 1.0).both_right, Some(false));
+    let classes = vec![known.classes[1].clone(), known.classes[1].clone()];
+    let alike = Answer { classes, effects: vec![two.effects[1].clone(), two.effects[1].clone()], ..two };
+    assert_eq!(judge(&alike, &report(Verdict::Effect, &[other]), 1.0).both_right, Some(false));
+    assert_eq!(judge(&alike, &report(Verdict::Effect, &[other, scale]), 1.0).both_right, Some(true));
 }
 
 #[test]

@@ -28,6 +28,9 @@ pub struct Answer {
     /// All effects that nobody can tell from the one effect in this recording, itself first: of one that is clear or gross.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub class: Vec<Member>,
+    /// Of two effects that are clear or gross, in their order: all that nobody can tell from each beside the other, itself first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub classes: Vec<Vec<Member>>,
     /// What the rig calls a device of the kind of the first effect's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<String>,
@@ -63,10 +66,9 @@ impl Plan {
             _ => Magnitude::of(distance).unwrap_or(self.magnitude),
         };
         let shows = magnitude == Magnitude::Clear || magnitude == Magnitude::Gross;
-        let class = match quirks.as_slice() {
-            [quirk] if self.sort == Sort::Single && shows && !conditions.classless => bench.class(quirk),
-            _ => Vec::new(),
-        };
+        let is_classed = shows && self.sort != Sort::Outside && !conditions.classless;
+        let mut classes = if is_classed { bench.classes(&quirks) } else { Vec::new() };
+        let class = if quirks.len() == 1 { classes.pop().unwrap_or_default() } else { Vec::new() };
         let takes =
             [Part::Train, Part::HeldOut].into_iter().filter_map(|part| bench.take(part, &quirks, model)).collect();
         let surroundings = bench.around;
@@ -79,6 +81,7 @@ impl Plan {
             kind: quirks.first().map(|quirk| bench.design.machine().kind(&quirk.device)),
             effects: quirks,
             class,
+            classes,
             surroundings,
         };
         Ok((answer, takes))

@@ -294,14 +294,20 @@ impl Bench {
         (most.powi(-2) + others.sum::<f64>()).sqrt().recip()
     }
 
-    /// What nobody can tell from `quirk` in the training recording; where devices touch each other nothing is known of that.
-    pub fn class(&self, quirk: &Quirk) -> Vec<Member> {
+    /// What nobody can tell from each of `quirks`, beside the others, in the training recording; where devices touch each other nothing is known
+    /// of that.
+    pub fn classes(&self, quirks: &[Quirk]) -> Vec<Vec<Member>> {
         if self.design.is_connected() {
             return Vec::new();
         }
-        let built = &*self.built;
+        let (plant, _) = self.watched(Part::Train, quirks, &self.scripts[Part::Train as usize]);
+        (0..quirks.len()).map(|at| self.class(&plant, quirks, at)).collect()
+    }
+
+    /// What nobody can tell from the one at `at`, of those that `plant` ran with.
+    fn class(&self, plant: &Plant, quirks: &[Quirk], at: usize) -> Vec<Member> {
+        let (built, quirk) = (&*self.built, &quirks[at]);
         let device = built.reporter(&quirk.device);
-        let (plant, _) = self.watched(Part::Train, std::slice::from_ref(quirk), &self.scripts[Part::Train as usize]);
         let script = &self.scripts[Part::Train as usize];
         let own = |command: &&Command| command.signal.split_once('.').is_some_and(|(of, _)| of == device);
         let alone = Alone {
@@ -309,6 +315,7 @@ impl Bench {
             around: &self.around,
             device,
             script: script.iter().filter(own).cloned().collect(),
+            others: [&quirks[..at], &quirks[at + 1..]].concat(),
             company: plant.company_of(device),
             seed: self.seed_of(Part::Train),
             share: self.deviation(),

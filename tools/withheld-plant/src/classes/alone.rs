@@ -15,6 +15,8 @@ pub struct Alone<'a> {
     pub device: &'a str,
     /// Its own commands, in order.
     pub script: Vec<Command>,
+    /// What else is wrong with the machine, whatever is looked for.
+    pub others: Vec<Quirk>,
     /// How many other devices move, from when on.
     pub company: Vec<(f64, usize)>,
     pub seed: u64,
@@ -54,8 +56,9 @@ impl Alone<'_> {
         if self.share > 0.0 { self.built.boxed().measures(self.device).len() } else { 0 }
     }
 
-    /// What is heard of it until `end`, with these effects and what is unknown so far off.
+    /// What is heard of it until `end`, with these effects beside the others, and what is unknown so far off.
     pub fn hear(&self, quirks: &[Quirk], unknowns: &Unknowns, end: f64) -> Heard {
+        let quirks = &[&self.others, quirks].concat();
         let shares: Vec<f64> = unknowns.measures.iter().map(|off| off * self.share).collect();
         let mut plant = with_larger(self.built, self.device, &shares).plant(quirks, self.seed).telling_parts();
         plant.keep(self.device, self.company.clone());

@@ -9,7 +9,7 @@
 //! those that are well tell them far more closely than the one that is not: they stay as they are.
 //!
 //! An effect that leaves more numbers to be found than the true one is no member: whatever holds another as a special case would be in
-//! its class always. What differs from run to run (noise, lost messages, a loose contact, jitter of a link) is alone against others of its sort:
+//! its class always. Of two effects the class of each is that beside the other, which stays as it is. What differs from run to run (noise, lost messages, a loose contact, jitter of a link) is alone against others of its sort:
 //! no two of them have the same statistics (white, in repeats, in zeros, in time), and none repeats a fixed effect's output. But a fixed effect that comes within 4.2 of what chance did would be
 //! in its class.
 
@@ -53,7 +53,8 @@ pub fn class(device: &Alone<'_>, truth: &Quirk, end: f64) -> Vec<Member> {
     let mut class = vec![truth.member()];
     for candidate in device.candidates(truth) {
         let member = device.here(candidate.quirk.clone()).member();
-        if !class.contains(&member) && look.distance(&candidate) <= SAME {
+        let is_there = device.others.iter().any(|other| other.member() == member);
+        if !is_there && !class.contains(&member) && look.distance(&candidate) <= SAME {
             class.push(member);
         }
     }

@@ -14,6 +14,7 @@ struct Rig {
     around: Surroundings,
     device: String,
     script: Vec<Command>,
+    others: Vec<Quirk>,
 }
 
 impl Rig {
@@ -25,16 +26,17 @@ impl Rig {
         let drawn = Surroundings::draw(&mut Dice::new(1, 2)).prompt();
         let around = Surroundings { cycle: 0.01, phase: 0.004, noise: 1.0, noise_time: 3e-3, ..drawn };
         let said = |&(at, port, value): &(f64, &str, f64)| Command { at, signal: format!("{device}.{port}"), value };
-        Rig { built, around, device: device.to_owned(), script: script.iter().map(said).collect() }
+        Rig { built, around, device: device.to_owned(), script: script.iter().map(said).collect(), others: Vec::new() }
     }
 
     fn alone(&self) -> Alone<'_> {
-        let Rig { built, around, device, script } = self;
+        let Rig { built, around, device, script, .. } = self;
         Alone {
             built: &**built,
             around,
             device,
             script: script.clone(),
+            others: self.others.clone(),
             company: Vec::new(),
             seed: 1,
             share: 0.01 / 3.0_f64.sqrt(),
@@ -148,6 +150,24 @@ fn a_motor_with_play_may_have_an_encoder_that_sticks() {
     let play = at("transmission", quirk("Motor", "backlash", &[("gap", 0.49)]));
     let found = Rig::new("Motor", &script).class(&play, 8.0);
     assert_eq!(found, ["backlash at transmission", "hysteresis at sensor"]);
+}
+
+/// A cylinder that passes its switch at one speed, whatever slows it down: a switch that lets go late does so by a way or by a time.
+#[test]
+fn beside_another_effect_a_class_is_that_of_one() {
+    let script: Vec<_> = (0..12).map(|k| (0.2 + 0.7 * f64::from(k), "command", f64::from(1 + k % 2))).collect();
+    let slower = at("actuator", quirk("Pusher", "direction-asymmetry", &[("asymmetry", 0.2)]));
+    let switch =
+        Quirk { component: Some("limitRetracted".to_owned()), ..quirk("Pusher", "hysteresis", &[("width", 0.08)]) };
+    let rig = Rig { others: vec![slower.clone()], ..Rig::new("Pusher", &script) };
+    let class = rig.class(&at("sensor", switch.clone()), 9.0);
+    assert_eq!(class[0], "hysteresis at sensor");
+    assert!(class.contains(&"off-delay at sensor".to_owned()), "{class:?}");
+    assert!(!class.contains(&"direction-asymmetry at actuator".to_owned()), "{class:?}");
+    // The other way round the switch is what stays.
+    let rig = Rig { others: vec![at("sensor", switch)], ..Rig::new("Pusher", &script) };
+    assert_eq!(rig.class(&slower, 9.0)[0], "direction-asymmetry at actuator");
+    assert!(rig.distance(&slower, "off-delay", 9.0) > SAME);
 }
 
 /// A motor at several speeds for most of a minute, its encoder a seventh short: what a small step of the scale changes is less than counts are
