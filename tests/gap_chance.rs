@@ -7,12 +7,14 @@ use kinetwin::gap::report::{Cause, Report, Verdict};
 use kinetwin::run::model;
 use machine::{Case, case, record};
 
-/// What is said of a rig with these effects of its axis.
-fn diagnosed(cases: &[Case]) -> Report {
+const ASKED: &[&str] = &["intermittent", "lost-messages", "noise", "gain", "dead-time"];
+
+/// What is said of a rig with these effects of its axis, where these are asked for.
+fn diagnosed(cases: &[Case], asked: &[&str]) -> Report {
     let plant = model::load("models/rig").expect("the rig");
     let [train, held_out] = [20, 12].map(|seconds| [record("models/rig", &plant, cases, seconds)]);
     let options = Options {
-        is_asked: &|id| ["intermittent", "lost-messages", "noise", "gain", "dead-time"].contains(&id),
+        is_asked: &|id| asked.contains(&id),
         is_meant: &|name| name == "Axis",
         is_stopped: &|| false,
         tell: &|_| {},
@@ -22,7 +24,7 @@ fn diagnosed(cases: &[Case]) -> Report {
 
 /// The one cause that is named of a rig whose axis has this effect of a signal, with this parameter.
 fn named(effect: (&'static str, &'static str, &'static str), parameter: &'static str, value: f64) -> Cause {
-    let report = diagnosed(&[case("Axis", effect, parameter, value)]);
+    let report = diagnosed(&[case("Axis", effect, parameter, value)], ASKED);
     let [cause] = report.cause.as_slice() else { panic!("{}", report.to_json()) };
     assert_eq!(report.verdict, Verdict::Effect, "{}", report.to_json());
     assert_eq!((cause.effect.as_str(), cause.component.as_deref()), (effect.1, Some(effect.2)));
@@ -49,9 +51,49 @@ fn a_sensor_that_scatters_is_told_with_its_sigma() {
 fn a_sensor_that_scatters_is_told_beside_a_loose_contact_of_another() {
     let contact = case("Axis", ("report-link", "intermittent", "force"), "probability", 0.2);
     let scatters = case("Axis", ("sensor", "noise", "velocity"), "sigma", 0.05);
-    let report = diagnosed(&[contact, scatters]);
+    let report = diagnosed(&[contact, scatters], ASKED);
     let found: Vec<_> = report.cause.iter().map(|cause| (cause.effect.as_str(), cause.component.as_deref())).collect();
     let expected = [("intermittent", Some("force")), ("noise", Some("velocity"))];
     assert_eq!((report.verdict, found.as_slice()), (Verdict::Effect, &expected[..]), "{}", report.to_json());
     assert!(is_within(&report.cause[1], "sigma", 0.05), "{:?}", report.cause[1].parameters);
+}
+
+/// What each of them does to the reports hides the other: neither has a prediction that it could be read beside.
+#[test]
+fn what_draws_is_read_off_the_recording_where_another_effect_moves_all_of_it() {
+    let check = |drawn: Case, beside: Case, is_known: &[(&str, f64)]| {
+        let asked = [drawn.effect, beside.effect, "stale-hold", "gain-error", "first-order-lag"];
+        let report = diagnosed(&[drawn, beside], &asked);
+        let found: Vec<&str> = report.cause.iter().map(|cause| cause.effect.as_str()).collect();
+        assert_eq!(
+            (report.verdict, found.as_slice()),
+            (Verdict::Effect, &[drawn.effect, beside.effect][..]),
+            "{}",
+            report.to_json()
+        );
+        for (cause, (parameter, value)) in report.cause.iter().zip(is_known) {
+            assert!(is_within(cause, parameter, *value), "{parameter}: {:?}", cause.parameters);
+        }
+    };
+    check(
+        case("Axis", ("report-link", "lost-messages", ""), "probability", 0.2),
+        case("Axis", ("actuator", "direction-asymmetry", ""), "asymmetry", 0.2),
+        &[("probability", 0.2), ("asymmetry", 0.2)],
+    );
+    check(
+        case("Axis", ("report-link", "intermittent", "position"), "probability", 0.2),
+        case("Axis", ("command-link", "input-filter", "positionTarget"), "time_constant", 0.1),
+        &[("probability", 0.2), ("time_constant", 0.1)],
+    );
+}
+
+/// Reports that are held in turn are no lost ones, and an axis that is slow one way loses none.
+#[test]
+fn what_comes_in_turn_is_not_lost_by_chance() {
+    let held = case("Axis", ("report-link", "stale-hold", ""), "time", 0.03);
+    let slower = case("Axis", ("actuator", "direction-asymmetry", ""), "asymmetry", 0.2);
+    for cases in [&[held, slower][..], &[slower][..]] {
+        let report = diagnosed(cases, &["lost-messages", "intermittent", "gain-error"]);
+        assert!(report.cause.iter().all(|cause| cause.effect == "gain-error"), "{}", report.to_json());
+    }
 }

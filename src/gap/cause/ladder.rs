@@ -182,14 +182,15 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let below = ladder.best.clone();
     let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return Rung::Left };
     let is_evident = |prediction: Arc<Prediction>| evidence_all_along(bench.subject, &prediction) > THRESHOLD;
+    let mut beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
-        return Rung::Left;
+        let Some(found) = still_beneath(bench, ladder) else { return Rung::Left };
+        beneath = found;
     }
     if is_explained_but_for_the_law(bench, &below, &ladder.bare.at) {
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
-    let beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
     // What remembers itself may be what an effect leaves of itself: whether one is worth having is asked of what is left with it.
     if standing.excess(plain.cost).max(beneath) < least_gain(1, 1) * plain.inflation().min(MOST_INFLATED) {
         return Rung::Left;
@@ -219,6 +220,28 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
         ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
     }
     if gain(next) >= LEAST_SHARE_OF_REST * excess { Rung::Unsure } else { Rung::Left }
+}
+
+/// What a candidate takes away beside the first effect though nothing that is left is evident: the greatest gain of those that were found beside it and take away
+/// as much as ever, each where it was. `None` where no gain is far beyond chance.
+fn still_beneath(bench: &Bench<'_>, ladder: &Ladder) -> Option<f64> {
+    /// Which part of what it gained alone a candidate must gain beside the first: it is another thing.
+    const AS_MUCH: f64 = 0.9;
+    let below = &ladder.best;
+    let [first] = below.set.as_slice() else { return None };
+    let least = BENEATH * THRESHOLD * below.inflation();
+    let plain = bench.trial(&below.set, below.at.clone())?;
+    let bare = bench.trial(&[], ladder.bare.at.clone())?;
+    let gain = |single: &Trial| {
+        let candidate = single.set.last()?;
+        let set = vec![first.clone(), candidate.clone()];
+        let own = single.at.get(..candidate.free.len())?;
+        let at = [&below.at[..below.parameters()], own, &bench.carried(&set, &below.overrides)].concat();
+        let alone = bare.cost - bench.trial(&single.set, single.at.clone())?.cost;
+        let beside = plain.cost - bench.trial(&set, at)?.cost;
+        (beside >= AS_MUCH * alone).then_some(beside)
+    };
+    ladder.singles.iter().filter_map(gain).max_by(f64::total_cmp).filter(|gain| *gain > least)
 }
 
 /// How a trial's deviance stands to where nothing is wrong.
@@ -284,12 +307,20 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
 /// What share of the best one's gain one has to have that is taken where the best is not sure.
 const NEARLY_THE_BEST: f64 = 0.8;
 
+/// How many of a rung are refitted with everything free, and how many of a device that reports states alone.
+const SETTLED: usize = 3;
+const SETTLED_AMONG_EDGES: usize = 8;
+
 /// Those of the rung that are refitted with everything free, the best first.
-fn settled_first<'a>(below: &Trial, rivals: &'a [Trial], handicapped: &dyn Fn(&Trial) -> f64) -> Vec<&'a Trial> {
-    const MOST: usize = 3;
+fn settled_first<'a>(
+    below: &Trial,
+    rivals: &'a [Trial],
+    most: usize,
+    handicapped: &dyn Fn(&Trial) -> f64,
+) -> Vec<&'a Trial> {
     let mut order: Vec<&Trial> = rivals.iter().collect();
     order.sort_by(|a, b| handicapped(a).total_cmp(&handicapped(b)));
-    let mut first: Vec<&Trial> = order.into_iter().take(MOST).collect();
+    let mut first: Vec<&Trial> = order.into_iter().take(most).collect();
     let is_cheaper = |a: &&Trial, b: &&Trial| a.cost.total_cmp(&b.cost);
     // Weighed by what no effect leaves, one that leaves nothing may seem not to be worth its parameters.
     let closest = rivals.iter().min_by(is_cheaper);
@@ -310,7 +341,9 @@ fn settled_first<'a>(below: &Trial, rivals: &'a [Trial], handicapped: &dyn Fn(&T
 fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial]) -> Vec<(Trial, Subject)> {
     // What remembers itself is what a trial leaves, and not what another does.
     let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * trial.inflation();
-    let first = settled_first(below, rivals, &handicapped);
+    // Among edges a search may end far beside its goal.
+    let most = if bench.subject.has_levels() { SETTLED } else { SETTLED_AMONG_EDGES };
+    let first = settled_first(below, rivals, most, &handicapped);
     let settled: Vec<(Trial, Subject)> =
         first.par_iter().filter_map(|trial| settle(bench, weighed, trial, below.set.is_empty())).collect();
     // They are compared as the one of them weighs the device that leaves the least.
@@ -592,7 +625,7 @@ mod tests {
         let first = |gain: f64| {
             let costs = [500.0, 600.0, 700.0, 800.0].map(|cost| trial(&rubs[0], cost));
             let rivals: Vec<Trial> = costs.into_iter().chain([trial(&inverted, 1000.0 - gain)]).collect();
-            let first = settled_first(&below, &rivals, &|trial| trial.cost);
+            let first = settled_first(&below, &rivals, SETTLED, &|trial| trial.cost);
             first.into_iter().map(|trial| trial.cost).collect::<Vec<_>>()
         };
         assert_eq!(first(40.0), [500.0, 600.0, 700.0, 960.0]);

@@ -8,6 +8,7 @@
 //! A sensor that reads in steps draws nothing, but no slope leads to
 //! them either: they are read off in the same way, and the floor is theirs then.
 
+mod itself;
 mod late;
 mod read;
 mod scatter;
@@ -23,7 +24,7 @@ use super::prediction::Prediction;
 use super::study::Study;
 use super::subject::{Subject, Timing};
 use crate::effect::EFFECTS;
-use crate::plant::EffectPlace;
+use crate::plant::{EffectPlace, EffectSpec};
 use late::Late;
 use read::{Law, Reading};
 use steps::Steps;
@@ -48,8 +49,12 @@ pub struct Chance {
 /// What is taken out of a recording.
 #[derive(Clone, Copy, Debug)]
 enum Drawn {
-    /// What a law drew.
+    /// What a law drew, read beside what the model predicts.
     By(Law),
+    /// The same, read off the recording by itself.
+    ByItself(Law),
+    /// The same, read beside what the model predicts with the effects that were found without it.
+    Beside(Law),
     /// What a report adds to the steps of its sensor.
     In(Steps),
     /// What commands came late by.
@@ -74,16 +79,21 @@ impl Chance {
         Some(other)
     }
 
-    /// Another recording of the device without what was drawn there, its nominal parameters as `overrides` say.
-    pub fn taken_out(&self, subject: &Subject, overrides: &Overrides) -> Option<Subject> {
-        let prediction = subject.predict(&[], overrides).ok()?;
+    /// Another recording of the device without what was drawn there, its effects and its nominal parameters as `specs` and `overrides` say.
+    pub fn taken_out(&self, subject: &Subject, specs: &[EffectSpec], overrides: &Overrides) -> Option<Subject> {
+        let specs = if matches!(self.drawn, Drawn::Beside(_)) { specs } else { &[] };
+        let prediction = subject.predict(specs, overrides).ok()?;
         let mut other = subject.clone();
         if matches!(self.drawn, Drawn::Late) {
             return Some(Late::of(subject, overrides, &|| false)?.put_off(subject));
         }
+        if let Drawn::ByItself(law) = self.drawn {
+            ByItself::of(subject, &prediction, law)?.take_out(&mut other);
+            return Some(other);
+        }
         for signal in &self.signals {
             match self.drawn {
-                Drawn::By(law) => {
+                Drawn::By(law) | Drawn::Beside(law) => {
                     if let Some(reading) = Reading::of(&other, &prediction, *signal, law, true) {
                         reading.take_out(&mut other, *signal);
                     }
@@ -95,10 +105,37 @@ impl Chance {
                         *floor = Floor { timing: floor.timing, ..trained };
                     }
                 }
-                Drawn::Late | Drawn::Noise => return None,
+                Drawn::ByItself(_) | Drawn::Late | Drawn::Noise => return None,
             }
         }
         Some(other)
+    }
+
+    /// The same, where it was read off the recording by itself, read anew beside what `specs` and `overrides` predict: by itself it was seen only where
+    /// the device moved on and on.
+    pub fn read_again(
+        &self,
+        (subject, bare): (&Subject, &Bare),
+        specs: &[EffectSpec],
+        overrides: &Overrides,
+    ) -> Option<Chance> {
+        let Drawn::ByItself(law) = self.drawn else { return None };
+        let prediction = subject.predict(specs, overrides).ok()?;
+        let read =
+            |signal: usize, is_known: bool| Some((signal, Reading::of(subject, &prediction, signal, law, is_known)?));
+        let readings: Vec<(usize, Reading)> = match law {
+            Law::Away => self.signals.iter().filter_map(|signal| read(*signal, false)).collect(),
+            Law::Lost => (0..subject.signals.len()).filter_map(|signal| read(signal, true)).collect(),
+        };
+        if readings.is_empty() {
+            return None;
+        }
+        let mut other = subject.clone();
+        readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
+        let nominal = other.predict(&[], &Overrides::none()).ok()?;
+        other.find_floors(&prediction, Timing::AsFound);
+        let bare = fitted(&mut other, bare, &nominal);
+        named((subject, other, bare), &readings, law, Drawn::Beside(law))
     }
 }
 
@@ -130,7 +167,9 @@ pub fn find(
     let found = found.or_else(|| {
         if has_gap && is_asked("sampling-jitter") { late(subject, bare, before, is_stopped) } else { None }
     });
-    let found = found.or_else(by_reading);
+    let by_itself =
+        || laws.iter().filter(|_| has_gap).find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
+    let found = found.or_else(by_reading).or_else(by_itself);
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
         if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
     };
@@ -205,6 +244,16 @@ fn taken_out(
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) && !is_of_others() {
         return None;
     }
+    named((subject, other, bare), &readings, law, Drawn::By(law))
+}
+
+/// What a law drew of `subject`, as the readings of its signals say; beside it the device without that, and its nominal parameters.
+fn named(
+    (subject, other, bare): (&Subject, Subject, Bare),
+    readings: &[(usize, Reading)],
+    law: Law,
+    drawn: Drawn,
+) -> Option<Chance> {
     let all = Reading::sum(readings.iter().map(|(_, reading)| reading));
     let signals: Vec<usize> = readings.iter().map(|(signal, _)| *signal).collect();
     // All that could show it do: it is the link's, not one signal's.
@@ -220,16 +269,67 @@ fn taken_out(
         Bounds { value: time.0, interval: time.1, is_identifiable: true },
     ];
     let candidate = candidate(law.id(), EffectPlace::ReportLink, component, &["probability", name], &bounds)?;
-    Some(Chance {
-        candidate,
-        bounds,
-        subject: other,
-        bare,
-        misfit: all.misfit,
-        drawn: Drawn::By(law),
-        signals,
-        beside: None,
-    })
+    Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, drawn, signals, beside: None })
+}
+
+/// What a law drew, read off a recording by itself.
+struct ByItself {
+    readings: Vec<(usize, Reading)>,
+    law: Law,
+}
+
+impl ByItself {
+    /// Of the recordings of `subject`; `None` where they do not show it.
+    fn of(subject: &Subject, bare: &Prediction, law: Law) -> Option<ByItself> {
+        let (itself, levels) = itself::of(subject, bare, law);
+        let read = |signal: usize| Some((signal, Reading::of(subject, &itself, signal, law, false)?));
+        let readings: Vec<(usize, Reading)> = levels.into_iter().filter_map(read).collect();
+        (!readings.is_empty()).then_some(ByItself { readings, law })
+    }
+
+    /// Whether that is what it was by all that is known of the law: a contact is one signal's, and is loose whatever should be read; reports are lost by
+    /// chance.
+    fn is_so(&self) -> bool {
+        match (self.law, self.readings.as_slice()) {
+            (Law::Away, [(_, reading)]) => reading.is_whatever_is_read(),
+            (Law::Away, _) => false,
+            // The signal that shows the most of it misses the least.
+            (Law::Lost, readings) => {
+                let most = readings.iter().map(|(_, reading)| reading).max_by_key(|reading| reading.drawn());
+                most.is_some_and(Reading::is_drawn_each_time)
+            }
+        }
+    }
+
+    /// Takes it out of the recordings: what is lost of one signal is of all that are reported with it.
+    fn take_out(&self, subject: &mut Subject) {
+        for (signal, reading) in &self.readings {
+            let all = match self.law {
+                Law::Away => *signal..signal + 1,
+                Law::Lost => 0..subject.signals.len(),
+            };
+            all.for_each(|other| reading.take_out(subject, other));
+        }
+    }
+}
+
+/// The device without what a law drew of its levels, whatever else is wrong with them.
+fn taken_out_by_itself(
+    subject: &Subject,
+    bare: &Bare,
+    law: Law,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Option<Chance> {
+    if !is_asked(law.id()) {
+        return None;
+    }
+    let found = ByItself::of(subject, &bare.prediction, law).filter(ByItself::is_so)?;
+    let mut other = subject.clone();
+    found.take_out(&mut other);
+    let nominal = other.predict(&[], &Overrides::none()).ok()?;
+    other.find_floors(&nominal, Timing::AsFound);
+    let bare = fitted(&mut other, bare, &nominal);
+    named((subject, other, bare), &found.readings, law, Drawn::ByItself(law))
 }
 
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.

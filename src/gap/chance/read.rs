@@ -17,7 +17,7 @@ pub(super) enum Law {
 /// How far from what it should be a sample may be, in standard deviations of its floor; a step is added.
 const GATE: f64 = 5.0;
 /// Beyond how many such gates apart the two things that a sample may be can be told apart.
-const APART: f64 = 2.0;
+pub(super) const APART: f64 = 2.0;
 /// How many samples must tell the two apart, and which share of them may be neither.
 const LEAST_TELLING: usize = 20;
 const STRANGE: f64 = 0.02;
@@ -312,6 +312,25 @@ impl Reading {
         sooner(drawn, others) < SOONER
     }
 
+    /// How many samples or edges were drawn.
+    pub fn drawn(&self) -> usize {
+        self.drawn
+    }
+
+    /// Whether what was drawn came as chance has it, and not in turn: as often in a row as by itself it would. Few draws do not say.
+    pub fn is_drawn_each_time(&self) -> bool {
+        /// Of a turn that is never in a row one sees by so many runs that there should have been, and by so many deviations.
+        const SHOULD_BE: f64 = 6.5;
+        const ALIKE: f64 = 2.5;
+        const MOST: f64 = 0.5;
+        let runs = self.stretches.iter().flatten();
+        let (count, longer) =
+            runs.fold((0.0, 0.0), |(count, longer), (from, to)| (count + 1.0, longer + f64::from(u8::from(to > from))));
+        let share = self.drawn as f64 / self.telling.max(1) as f64;
+        let deviation = (count * share * (1.0 - share)).sqrt();
+        share <= MOST && count * share >= SHOULD_BE && (longer - count * share).abs() <= ALIKE * deviation
+    }
+
     /// Several signals' readings as one.
     pub fn sum<'a>(readings: impl Iterator<Item = &'a Reading>) -> Reading {
         let mut sum = Reading::default();
@@ -362,7 +381,7 @@ impl Reading {
 }
 
 /// How far from what it should be a sample may lie.
-fn gate(floor: &crate::gap::Floor, slope: f64) -> f64 {
+pub(super) fn gate(floor: &crate::gap::Floor, slope: f64) -> f64 {
     GATE * floor.sigma(slope) + floor.step
 }
 

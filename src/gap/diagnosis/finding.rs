@@ -100,6 +100,12 @@ pub(super) fn find(
     }
     let chance = chance::find(place, study, options.is_asked, options.is_stopped).map(Arc::new);
     let finding = conclude(place, (subject, bare), chance, study, options)?;
+    let read_again = || {
+        let best = &finding.ladder.best;
+        let chance = finding.chance.as_ref()?.read_again((subject, bare), &best.specs(), &best.overrides)?;
+        conclude(place, (subject, bare), Some(Arc::new(chance)), study, options)
+    };
+    let finding = read_again().unwrap_or(finding);
     let aged = || {
         let (subject, bare) = older(subject, finding.seeming_age(study)?)?;
         let aged = conclude(place, (&subject, &bare), None, study, options).filter(explains_all)?;

@@ -72,7 +72,7 @@ impl Measured {
                 false => subject.predict(&specs, best).ok().map(|with| subject.score(&with)),
             };
             // What was drawn there is read off as in the training; how it is drawn is as it was found there.
-            let others = finding.chance.as_ref().and_then(|chance| chance.taken_out(subject, best));
+            let others = finding.chance.as_ref().and_then(|chance| chance.taken_out(subject, &specs, best));
             let after = match &others {
                 Some(other) => with(other).or_else(|| Some(other.score(&other.predict(&[], best).ok()?))),
                 None => with(subject),
