@@ -88,7 +88,7 @@ impl Chance {
             return Some(Late::of(subject, overrides, &|| false)?.put_off(subject));
         }
         if let Drawn::ByItself(law) = self.drawn {
-            ByItself::of(subject, &prediction, law)?.take_out(&mut other);
+            ByRecording::of(subject, &prediction, law)?.take_out(&mut other);
             return Some(other);
         }
         for signal in &self.signals {
@@ -110,33 +110,45 @@ impl Chance {
         }
         Some(other)
     }
+}
 
-    /// The same, where it was read off the recording by itself, read anew beside what `specs` and `overrides` predict: by itself it was seen only where
-    /// the device moved on and on.
-    pub fn read_again(
-        &self,
-        (subject, bare): (&Subject, &Bare),
-        specs: &[EffectSpec],
-        overrides: &Overrides,
-    ) -> Option<Chance> {
-        let Drawn::ByItself(law) = self.drawn else { return None };
-        let prediction = subject.predict(specs, overrides).ok()?;
-        let read =
-            |signal: usize, is_known: bool| Some((signal, Reading::of(subject, &prediction, signal, law, is_known)?));
-        let readings: Vec<(usize, Reading)> = match law {
-            Law::Away => self.signals.iter().filter_map(|signal| read(*signal, false)).collect(),
-            Law::Lost => (0..subject.signals.len()).filter_map(|signal| read(signal, true)).collect(),
-        };
-        if readings.is_empty() {
-            return None;
+/// What was drawn of a device beside what `specs` and `overrides` predict of it: of what was `found` by itself, which was seen only where the device moved on
+/// and on, or, where nothing was, what those effects leave.
+pub fn beside(
+    (subject, bare): (&Subject, &Bare),
+    (specs, overrides): (&[EffectSpec], &Overrides),
+    found: Option<&Chance>,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Option<Chance> {
+    let prediction = subject.predict(specs, overrides).ok()?;
+    let read = |signals: &mut dyn Iterator<Item = usize>, law: Law, is_known: bool| -> Vec<(usize, Reading)> {
+        signals.filter_map(|signal| Some((signal, Reading::of(subject, &prediction, signal, law, is_known)?))).collect()
+    };
+    let all = || 0..subject.signals.len();
+    let (law, readings) = match found.map(|found| (found.drawn, &found.signals)) {
+        Some((Drawn::ByItself(law), signals)) => match law {
+            Law::Away => (law, read(&mut signals.iter().copied(), law, false)),
+            Law::Lost => (law, read(&mut all(), law, true)),
+        },
+        Some(_) => return None,
+        None => {
+            let shown = |law: &Law| {
+                let shown = ByRecording { readings: read(&mut all(), *law, false), law: *law };
+                (is_asked(law.id()) && shown.is_so()).then_some(*law)
+            };
+            let law = [Law::Away, Law::Lost].iter().find_map(shown)?;
+            (law, read(&mut all(), law, law == Law::Lost))
         }
-        let mut other = subject.clone();
-        readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
-        let nominal = other.predict(&[], &Overrides::none()).ok()?;
-        other.find_floors(&prediction, Timing::AsFound);
-        let bare = fitted(&mut other, bare, &nominal);
-        named((subject, other, bare), &readings, law, Drawn::Beside(law))
+    };
+    if readings.is_empty() {
+        return None;
     }
+    let mut other = subject.clone();
+    readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
+    let nominal = other.predict(&[], &Overrides::none()).ok()?;
+    other.find_floors(&prediction, Timing::AsFound);
+    let bare = fitted(&mut other, bare, &nominal);
+    named((subject, other, bare), &readings, law, Drawn::Beside(law))
 }
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
@@ -273,18 +285,18 @@ fn named(
 }
 
 /// What a law drew, read off a recording by itself.
-struct ByItself {
+struct ByRecording {
     readings: Vec<(usize, Reading)>,
     law: Law,
 }
 
-impl ByItself {
+impl ByRecording {
     /// Of the recordings of `subject`; `None` where they do not show it.
-    fn of(subject: &Subject, bare: &Prediction, law: Law) -> Option<ByItself> {
+    fn of(subject: &Subject, bare: &Prediction, law: Law) -> Option<ByRecording> {
         let (itself, levels) = itself::of(subject, bare, law);
         let read = |signal: usize| Some((signal, Reading::of(subject, &itself, signal, law, false)?));
         let readings: Vec<(usize, Reading)> = levels.into_iter().filter_map(read).collect();
-        (!readings.is_empty()).then_some(ByItself { readings, law })
+        (!readings.is_empty()).then_some(ByRecording { readings, law })
     }
 
     /// Whether that is what it was by all that is known of the law: a contact is one signal's, and is loose whatever should be read; reports are lost by
@@ -323,7 +335,7 @@ fn taken_out_by_itself(
     if !is_asked(law.id()) {
         return None;
     }
-    let found = ByItself::of(subject, &bare.prediction, law).filter(ByItself::is_so)?;
+    let found = ByRecording::of(subject, &bare.prediction, law).filter(ByRecording::is_so)?;
     let mut other = subject.clone();
     found.take_out(&mut other);
     let nominal = other.predict(&[], &Overrides::none()).ok()?;
@@ -478,5 +490,57 @@ mod tests {
         }
         let (study, place) = with_a_loose_contact(usize::MAX, true);
         assert_eq!(found(&study, place), None);
+    }
+
+    /// The recorded motor, its speed a fifth too high, of whose reports one in `every` brings nothing new by chance, or each third in turn.
+    fn with_lost_reports(is_in_turn: bool) -> (Study, usize) {
+        let mut study = study(RUBBING_AXIS);
+        let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
+        let prediction = study.bare[place].prediction.clone();
+        let subject = &mut study.subjects[place];
+        for (signal, info) in subject.signals.iter().enumerate() {
+            let (Some(track), Predicted::Level(values)) =
+                (&mut subject.runs[0].tracks[signal], &prediction.runs[0][signal])
+            else {
+                continue;
+            };
+            // Numbers that look drawn: those of D. H. Lehmer's generator with the factor 48271.
+            let mut drawn = 20_261_126_u64;
+            let mut last = track.values[0];
+            for (k, (value, law)) in track.values.iter_mut().zip(values).enumerate() {
+                drawn = drawn * 48_271 % 2_147_483_647;
+                let is_lost = if is_in_turn { k % 3 == 1 } else { drawn % 5 == 0 };
+                let fresh = if info.is_count { (1.2 * law).floor() } else { 1.2 * law };
+                last = if is_lost { last } else { fresh };
+                *value = last;
+            }
+        }
+        subject.find_floors(&prediction, Timing::AsFound);
+        (study, place)
+    }
+
+    #[test]
+    fn lost_reports_are_read_off_a_recording_that_no_prediction_fits() {
+        let (study, place) = with_lost_reports(false);
+        let chance = find(place, &study, &|id| id == "lost-messages", &|| false).expect("lost reports");
+        let bounds = &chance.bounds[0];
+        assert!(
+            chance.candidate.effect.id == "lost-messages" && bounds.value > 0.1 && bounds.value < 0.25,
+            "{bounds:?}"
+        );
+        // With what its sensors read each of them is seen.
+        let (subject, bare) = (&study.subjects[place], &study.bare[place]);
+        let gain = |signal: &str| EffectSpec {
+            place: EffectPlace::Sensor,
+            kind: "gain".to_owned(),
+            component: Some(signal.to_owned()),
+            parameters: [("gain".to_owned(), crate::plant::ParameterValue::Number(1.2))].into(),
+        };
+        let gains = ["encoder", "speedActual"].map(gain);
+        let again = beside((subject, bare), (&gains, &bare.overrides), Some(&chance), &|_| true).expect("all of them");
+        let [least, most] = again.bounds[0].interval;
+        assert!((least..=most).contains(&0.2), "{:?}", again.bounds);
+        let (study, place) = with_lost_reports(true);
+        assert!(find(place, &study, &|id| id == "lost-messages", &|| false).is_none());
     }
 }

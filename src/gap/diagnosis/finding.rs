@@ -100,12 +100,7 @@ pub(super) fn find(
     }
     let chance = chance::find(place, study, options.is_asked, options.is_stopped).map(Arc::new);
     let finding = conclude(place, (subject, bare), chance, study, options)?;
-    let read_again = || {
-        let best = &finding.ladder.best;
-        let chance = finding.chance.as_ref()?.read_again((subject, bare), &best.specs(), &best.overrides)?;
-        conclude(place, (subject, bare), Some(Arc::new(chance)), study, options)
-    };
-    let finding = read_again().unwrap_or(finding);
+    let finding = read_again(&finding, (subject, bare), study, options).unwrap_or(finding);
     let aged = || {
         let (subject, bare) = older(subject, finding.seeming_age(study)?)?;
         let aged = conclude(place, (&subject, &bare), None, study, options).filter(explains_all)?;
@@ -118,6 +113,24 @@ pub(super) fn find(
     let alone = conclude(place, (subject, bare), None, study, options).filter(explains_all);
     let is_plainer = |alone: &Finding| alone.ladder.best.set.len() <= finding.ladder.best.set.len();
     Some(alone.filter(is_plainer).unwrap_or(finding))
+}
+
+/// The same once what was drawn is read beside the effects that were found: where it had been read off the recording by itself, and where they do not
+/// explain all.
+fn read_again(
+    finding: &Finding,
+    (subject, bare): (&Subject, &Bare),
+    study: &Study,
+    options: &Options<'_>,
+) -> Option<Finding> {
+    let best = &finding.ladder.best;
+    let known = finding.chance.as_deref();
+    if best.set.is_empty() || known.is_none() && explains_all(finding) {
+        return None;
+    }
+    let chance = chance::beside((subject, bare), (&best.specs(), &best.overrides), known, options.is_asked)?;
+    let anew = conclude(finding.subject, (subject, bare), Some(Arc::new(chance)), study, options)?;
+    (known.is_some() || explains_all(&anew)).then_some(anew)
 }
 
 /// The same device where reports are so old, s.
