@@ -509,7 +509,7 @@ mod tests {
             let mut last = track.values[0];
             for (k, (value, law)) in track.values.iter_mut().zip(values).enumerate() {
                 drawn = drawn * 48_271 % 2_147_483_647;
-                let is_lost = if is_in_turn { k % 3 == 1 } else { drawn % 5 == 0 };
+                let is_lost = if is_in_turn { k % 3 == 1 } else { drawn.is_multiple_of(5) };
                 let fresh = if info.is_count { (1.2 * law).floor() } else { 1.2 * law };
                 last = if is_lost { last } else { fresh };
                 *value = last;
