@@ -182,15 +182,14 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let below = ladder.best.clone();
     let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return Rung::Left };
     let is_evident = |prediction: Arc<Prediction>| evidence_all_along(bench.subject, &prediction) > THRESHOLD;
-    let mut beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
-        let Some(found) = still_beneath(bench, ladder) else { return Rung::Left };
-        beneath = found;
+        return Rung::Left;
     }
     if is_explained_but_for_the_law(bench, &below, &ladder.bare.at) {
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
+    let beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
     // What remembers itself may be what an effect leaves of itself: whether one is worth having is asked of what is left with it.
     if standing.excess(plain.cost).max(beneath) < least_gain(1, 1) * plain.inflation().min(MOST_INFLATED) {
         return Rung::Left;
@@ -220,28 +219,6 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
         ladder.too_few_blocks = too_few_blocks(&bench.with(subject), &below, next, ladder);
     }
     if gain(next) >= LEAST_SHARE_OF_REST * excess { Rung::Unsure } else { Rung::Left }
-}
-
-/// What a candidate takes away beside the first effect though nothing that is left is evident: the greatest gain of those that were found beside it and take away
-/// as much as ever, each where it was. `None` where no gain is far beyond chance.
-fn still_beneath(bench: &Bench<'_>, ladder: &Ladder) -> Option<f64> {
-    /// Which part of what it gained alone a candidate must gain beside the first: it is another thing.
-    const AS_MUCH: f64 = 0.9;
-    let below = &ladder.best;
-    let [first] = below.set.as_slice() else { return None };
-    let least = BENEATH * THRESHOLD * below.inflation();
-    let plain = bench.trial(&below.set, below.at.clone())?;
-    let bare = bench.trial(&[], ladder.bare.at.clone())?;
-    let gain = |single: &Trial| {
-        let candidate = single.set.last()?;
-        let set = vec![first.clone(), candidate.clone()];
-        let own = single.at.get(..candidate.free.len())?;
-        let at = [&below.at[..below.parameters()], own, &bench.carried(&set, &below.overrides)].concat();
-        let alone = bare.cost - bench.trial(&single.set, single.at.clone())?.cost;
-        let beside = plain.cost - bench.trial(&set, at)?.cost;
-        (beside >= AS_MUCH * alone).then_some(beside)
-    };
-    ladder.singles.iter().filter_map(gain).max_by(f64::total_cmp).filter(|gain| *gain > least)
 }
 
 /// How a trial's deviance stands to where nothing is wrong.
@@ -307,7 +284,7 @@ fn too_few_blocks(bench: &Bench<'_>, below: &Trial, next: &Trial, ladder: &Ladde
 /// What share of the best one's gain one has to have that is taken where the best is not sure.
 const NEARLY_THE_BEST: f64 = 0.8;
 
-/// How many of a rung are refitted with everything free, and how many of a device that reports states alone.
+/// How many of a rung are refitted with everything free, and how many of the first of a device that reports states alone.
 const SETTLED: usize = 3;
 const SETTLED_AMONG_EDGES: usize = 8;
 
@@ -342,7 +319,8 @@ fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial
     // What remembers itself is what a trial leaves, and not what another does.
     let handicapped = |trial: &Trial| trial.cost + handicap(trial, below.set.len()) * trial.inflation();
     // Among edges a search may end far beside its goal.
-    let most = if bench.subject.has_levels() { SETTLED } else { SETTLED_AMONG_EDGES };
+    let is_first_among_edges = below.set.is_empty() && !bench.subject.has_levels();
+    let most = if is_first_among_edges { SETTLED_AMONG_EDGES } else { SETTLED };
     let first = settled_first(below, rivals, most, &handicapped);
     let settled: Vec<(Trial, Subject)> =
         first.par_iter().filter_map(|trial| settle(bench, weighed, trial, below.set.is_empty())).collect();

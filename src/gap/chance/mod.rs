@@ -148,7 +148,8 @@ pub fn beside(
     let nominal = other.predict(&[], &Overrides::none()).ok()?;
     other.find_floors(&prediction, Timing::AsFound);
     let bare = fitted(&mut other, bare, &nominal);
-    named((subject, other, bare), &readings, law, Drawn::Beside(law))
+    let anew = named((subject, other, bare), &readings, law, Drawn::Beside(law))?;
+    Some(Chance { beside: found.and_then(|found| found.beside.clone()), ..anew })
 }
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
@@ -492,7 +493,7 @@ mod tests {
         assert_eq!(found(&study, place), None);
     }
 
-    /// The recorded motor, its speed a fifth too high, of whose reports one in `every` brings nothing new by chance, or each third in turn.
+    /// The recorded motor as sensors read it that are a fifth too high; of its reports one in five brings nothing new by chance, or each third in turn.
     fn with_lost_reports(is_in_turn: bool) -> (Study, usize) {
         let mut study = study(RUBBING_AXIS);
         let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
