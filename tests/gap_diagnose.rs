@@ -201,6 +201,20 @@ fn a_delay_of_all_reports_beside_an_effect_is_their_age() {
     assert_eq!((cause.effect.as_str(), cause.component.as_deref()), ("wrong-unit", Some("positionTarget")));
 }
 
+/// A cylinder that each other drive slows down, by 0.0422: among edges a search ends beside that, and five candidates seem to explain more.
+#[test]
+fn among_edges_more_than_the_three_best_are_refitted() {
+    let plant = model::load("models/rig-toleranced").expect("the rig");
+    let train = vec![read(&plant, "tests/data/pusher-whose-supply-drops.cps.jsonl.zst")];
+    let options =
+        Options { is_asked: &|_| true, is_meant: &|name| name == "Pusher", is_stopped: &|| false, tell: &|_| {} };
+    let report = diagnose(&plant, &train, &train, &options).expect("a diagnosis").report;
+    let named: Vec<&str> = report.cause.iter().map(|cause| cause.effect.as_str()).collect();
+    assert_eq!((report.verdict, named.as_slice()), (Verdict::Effect, &["supply-drop"][..]), "{}", report.to_json());
+    let [low, high] = report.cause[0].parameters[0].ci95;
+    assert!(low < 0.0422 && high > 0.0422, "{low} {high}");
+}
+
 /// The first seconds of a recording, in which the robot moves once.
 #[test]
 fn a_gap_in_too_little_motion_is_not_testable() {

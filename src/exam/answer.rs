@@ -73,6 +73,14 @@ pub struct ClassMember {
     pub place: String,
 }
 
+impl TrueEffect {
+    /// Its names.
+    pub fn member(&self) -> ClassMember {
+        let TrueEffect { device, component, effect, place, .. } = self.clone();
+        ClassMember { device, component, effect, place }
+    }
+}
+
 /// The truth about one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {

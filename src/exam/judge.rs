@@ -85,7 +85,7 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
         single_right: is_single.then(single),
         truth_in_class: is_single.then(in_class),
         truth_named: is_single.then(|| truths.iter().all(|truth| named(truth) || rival(truth))),
-        both_right: is_two.then(|| each_is_named(answer, report)),
+        both_right: is_two.then(|| each_is_named(answer, 0, &report.cause.iter().collect::<Vec<_>>())),
         covered: if is_single && in_class() { covered(&truths[0], report) } else { [0, 0] },
         weight: report.cause.first().map(|cause| weight_of_class(cause, report)),
         class_size: report.cause.first().map_or(0, |cause| cause.class.len()),
@@ -153,34 +153,19 @@ fn devices_are_right(truths: &[TrueEffect], report: &Report) -> bool {
     wrong == first
 }
 
-/// Whether each of the effects is the answer of a cause of its own: its name, or that of another of its class, in the cause or in its class.
-fn each_is_named(answer: &Answer, report: &Report) -> bool {
-    let names = |cause: &Cause, at: usize| {
-        let class = answer.classes.get(at);
-        of_class(cause, &answer.effects[at]) || class.is_some_and(|class| class::holds(class, cause))
-    };
-    // Of the causes, which are few, any order.
-    fn rest(left: &[usize], at: usize, count: usize, names: &dyn Fn(usize, usize) -> bool) -> bool {
-        let taken = |cause: usize| left.iter().copied().filter(|other| *other != cause).collect::<Vec<usize>>();
-        at == count || left.iter().any(|cause| names(*cause, at) && rest(&taken(*cause), at + 1, count, names))
-    }
-    let all: Vec<usize> = (0..report.cause.len()).collect();
-    rest(&all, 0, answer.effects.len(), &|cause, at| names(&report.cause[cause], at))
+/// Whether each of the effects from the one at `from` on is the answer of one of `causes` of its own: its name, or that of another of its class, in the cause or
+/// in its class.
+fn each_is_named(answer: &Answer, from: usize, causes: &[&Cause]) -> bool {
+    let Some(truth) = answer.effects.get(from) else { return true };
+    let is_of_class = |cause: &Cause| answer.classes.get(from).is_some_and(|class| class::holds(class, cause));
+    (0..causes.len()).any(|at| {
+        let others = [&causes[..at], &causes[at + 1..]].concat();
+        (of_class(causes[at], truth) || is_of_class(causes[at])) && each_is_named(answer, from + 1, &others)
+    })
 }
 
 fn of_class(cause: &Cause, truth: &TrueEffect) -> bool {
-    let own = class::named(cause);
-    let stands = is_same(truth, &own.device, own.component.as_deref(), &own.effect) && at_place(truth, &own);
-    stands
-        || class::is_another_name(truth, &own)
-        || cause.class.iter().any(|member| {
-            is_same(truth, &member.device, member.component.as_deref(), &member.effect) && at_place(truth, member)
-        })
-}
-
-/// A parameter is wrong wherever the report puts it.
-fn at_place(truth: &TrueEffect, member: &Member) -> bool {
-    truth.effect == "parameter-error" || member.place.name() == truth.place
+    class::holds(&[truth.member()], cause) || class::is_another_name(truth, &class::named(cause))
 }
 
 /// Where one of the two names no part of the device, the device says enough.

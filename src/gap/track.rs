@@ -116,6 +116,21 @@ impl Track {
         })
     }
 
+    /// A level of these values, each 10 ms.
+    #[cfg(test)]
+    pub(super) fn of_values(values: Vec<f64>) -> Track {
+        Track {
+            grid: Arc::new(Grid::of_steps(0.01, 0.01 * values.len() as f64)),
+            first: 0,
+            values,
+            initial: 0.0,
+            edges: Vec::new(),
+            origins: Vec::new(),
+            tolerance: 0.0,
+            blind: Vec::new(),
+        }
+    }
+
     /// Of a level: its values, and those predicted in their place, where they are evidence.
     pub(super) fn evident<'a>(&'a self, predicted: &'a [f64]) -> (Cow<'a, [f64]>, Cow<'a, [f64]>) {
         if self.blind.is_empty() {

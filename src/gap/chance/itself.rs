@@ -92,23 +92,7 @@ fn made_up(track: &Track, floor: &Floor) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
-    use crate::gap::Grid;
-
-    fn track(values: Vec<f64>) -> Track {
-        Track {
-            grid: Arc::new(Grid::of_steps(0.01, 0.01 * values.len() as f64)),
-            first: 0,
-            values,
-            initial: 0.0,
-            edges: Vec::new(),
-            origins: Vec::new(),
-            tolerance: 0.0,
-            blind: Vec::new(),
-        }
-    }
 
     /// Steps of 1 mm with noise of a tenth of one.
     fn floor() -> Floor {
@@ -134,11 +118,11 @@ mod tests {
         for (from, to) in [(20, 21), (50, 52), (80, 81)] {
             lost[from..to].fill(whole[from - 1]);
         }
-        let found = made_up(&track(lost), &floor());
+        let found = made_up(&Track::of_values(lost), &floor());
         assert!(found.iter().zip(&whole).all(|(found, whole)| (found - whole).abs() < 1e-12));
         // What stops for three samples and goes on from there was not.
         let stops: Vec<f64> =
             (0..200_i32).map(|k| 0.01 * f64::from(if k < 100 { k } else { (k - 3).max(99) })).collect();
-        assert_eq!(made_up(&track(stops.clone()), &floor()), stops);
+        assert_eq!(made_up(&Track::of_values(stops.clone()), &floor()), stops);
     }
 }

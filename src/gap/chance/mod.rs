@@ -88,7 +88,7 @@ impl Chance {
             return Some(Late::of(subject, overrides, &|| false)?.put_off(subject));
         }
         if let Drawn::ByItself(law) = self.drawn {
-            ByRecording::of(subject, &prediction, law)?.take_out(&mut other);
+            Readings::by_themselves(subject, &prediction, law).take_out_of_all(&mut other);
             return Some(other);
         }
         for signal in &self.signals {
@@ -121,34 +121,24 @@ pub fn beside(
     is_asked: &(dyn Fn(&str) -> bool + Sync),
 ) -> Option<Chance> {
     let prediction = subject.predict(specs, overrides).ok()?;
-    let read = |signals: &mut dyn Iterator<Item = usize>, law: Law, is_known: bool| -> Vec<(usize, Reading)> {
-        signals.filter_map(|signal| Some((signal, Reading::of(subject, &prediction, signal, law, is_known)?))).collect()
-    };
-    let all = || 0..subject.signals.len();
-    let (law, readings) = match found.map(|found| (found.drawn, &found.signals)) {
-        Some((Drawn::ByItself(law), signals)) => match law {
-            Law::Away => (law, read(&mut signals.iter().copied(), law, false)),
-            Law::Lost => (law, read(&mut all(), law, true)),
-        },
+    let all = 0..subject.signals.len();
+    let shown = |law: &Law| is_asked(law.id()) && Readings::of(subject, &prediction, all.clone(), *law, false).is_so();
+    let law = match found.map(|found| found.drawn) {
+        Some(Drawn::ByItself(law)) => law,
         Some(_) => return None,
-        None => {
-            let shown = |law: &Law| {
-                let shown = ByRecording { readings: read(&mut all(), *law, false), law: *law };
-                (is_asked(law.id()) && shown.is_so()).then_some(*law)
-            };
-            let law = [Law::Away, Law::Lost].iter().find_map(shown)?;
-            (law, read(&mut all(), law, law == Law::Lost))
-        }
+        None => [Law::Away, Law::Lost].into_iter().find(shown)?,
     };
-    if readings.is_empty() {
+    let readings = match (law, found) {
+        (Law::Away, Some(found)) => Readings::of(subject, &prediction, found.signals.iter().copied(), law, false),
+        _ => Readings::of(subject, &prediction, all, law, law == Law::Lost),
+    };
+    if readings.each.is_empty() {
         return None;
     }
     let mut other = subject.clone();
-    readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
-    let nominal = other.predict(&[], &Overrides::none()).ok()?;
-    other.find_floors(&prediction, Timing::AsFound);
-    let bare = fitted(&mut other, bare, &nominal);
-    let anew = named((subject, other, bare), &readings, law, Drawn::Beside(law))?;
+    readings.take_out(&mut other);
+    let (other, bare) = without(other, bare, Some(&prediction))?;
+    let anew = readings.named((subject, other, bare), Drawn::Beside(law))?;
     Some(Chance { beside: found.and_then(|found| found.beside.clone()), ..anew })
 }
 
@@ -180,9 +170,8 @@ pub fn find(
     let found = found.or_else(|| {
         if has_gap && is_asked("sampling-jitter") { late(subject, bare, before, is_stopped) } else { None }
     });
-    let by_itself =
-        || laws.iter().filter(|_| has_gap).find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
-    let found = found.or_else(by_reading).or_else(by_itself);
+    let by_itself = || laws.iter().find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
+    let found = found.or_else(by_reading).or_else(|| if has_gap { by_itself() } else { None });
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
         if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
     };
@@ -209,26 +198,20 @@ fn taken_out(
     if !is_asked(law.id()) {
         return None;
     }
-    let read_all = |bare: &Bare, is_known: bool| -> Vec<(usize, Reading)> {
-        let read = |signal: usize| Some((signal, Reading::of(subject, &bare.prediction, signal, law, is_known)?));
-        (0..subject.signals.len()).filter_map(read).collect()
-    };
-    let without = |bare: &Bare| {
+    let read_all =
+        |bare: &Bare, is_known: bool| Readings::of(subject, &bare.prediction, 0..subject.signals.len(), law, is_known);
+    let beside = |bare: &Bare| {
         let shown = read_all(bare, false);
-        if shown.is_empty() {
-            return None;
-        }
+        let count = shown.each.len();
         // Several that are away are so for another reason: a drive that does not start has no speed, and does not run.
-        if law == Law::Away && shown.len() > 1 {
+        if count == 0 || law == Law::Away && count > 1 {
             return None;
         }
         // Reports get lost of a whole link, a contact is one signal's.
-        let readings = if law == Law::Lost && shown.len() > 1 { read_all(bare, true) } else { shown };
+        let readings = if law == Law::Lost && count > 1 { read_all(bare, true) } else { shown };
         let mut other = subject.clone();
-        readings.iter().for_each(|(signal, reading)| reading.take_out(&mut other, *signal));
-        let nominal = other.predict(&[], &Overrides::none()).ok()?;
-        other.find_floors(&nominal, Timing::AsFound);
-        let bare = fitted(&mut other, bare, &nominal);
+        readings.take_out(&mut other);
+        let (other, bare) = without(other, bare, None)?;
         Some((readings, other, bare))
     };
     // What was drawn may have spoilt the nominal parameters so that it cannot be read beside them.
@@ -236,15 +219,15 @@ fn taken_out(
         let prediction = subject.predict(&[], &Overrides::none()).ok()?;
         Some(Bare { overrides: Overrides::none(), prediction, ..bare.clone() })
     };
-    let (mut readings, mut other, mut bare) = without(bare).or_else(|| without(&nominal()?))?;
+    let (mut readings, mut other, mut bare) = beside(bare).or_else(|| beside(&nominal()?))?;
     // What was drawn had a part in the nominal parameters that it was read beside.
     for _ in 1..ROUNDS {
         if evidence(&other, &bare.prediction) <= THRESHOLD {
             break;
         }
-        (readings, other, bare) = without(&bare)?;
+        (readings, other, bare) = beside(&bare)?;
     }
-    let are_whatever_is_read = || readings.iter().all(|(_, reading)| reading.is_whatever_is_read());
+    let are_whatever_is_read = || readings.each.iter().all(|(_, reading)| reading.is_whatever_is_read());
     if before <= THRESHOLD && !are_whatever_is_read() {
         return None;
     }
@@ -252,77 +235,88 @@ fn taken_out(
     let is_of_others = || {
         law == Law::Away
             && are_whatever_is_read()
-            && readings.iter().all(|(signal, _)| evidence_of(*signal, &other, &bare.prediction) <= THRESHOLD)
+            && readings.each.iter().all(|(signal, _)| evidence_of(*signal, &other, &bare.prediction) <= THRESHOLD)
     };
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) && !is_of_others() {
         return None;
     }
-    named((subject, other, bare), &readings, law, Drawn::By(law))
+    readings.named((subject, other, bare), Drawn::By(law))
 }
 
-/// What a law drew of `subject`, as the readings of its signals say; beside it the device without that, and its nominal parameters.
-fn named(
-    (subject, other, bare): (&Subject, Subject, Bare),
-    readings: &[(usize, Reading)],
+/// What a law drew of a device, signal by signal.
+struct Readings {
     law: Law,
-    drawn: Drawn,
-) -> Option<Chance> {
-    let all = Reading::sum(readings.iter().map(|(_, reading)| reading));
-    let signals: Vec<usize> = readings.iter().map(|(signal, _)| *signal).collect();
-    // All that could show it do: it is the link's, not one signal's.
-    let is_shown_by = |signal: usize| Reading::could_show(&other, &bare.prediction, signal, law);
-    let could = (0..subject.signals.len()).filter(|signal| is_shown_by(*signal)).count();
-    let is_whole = law == Law::Lost && signals.len() > 1 && could <= signals.len();
-    let component = (!is_whole && signals.len() == 1 && (could > 1 || law == Law::Away))
-        .then(|| subject.signals[signals[0]].property.clone());
-    let (least, share, most) = all.share();
-    let (name, time) = law.time(&all);
-    let bounds = vec![
-        Bounds { value: share, interval: [least, most], is_identifiable: true },
-        Bounds { value: time.0, interval: time.1, is_identifiable: true },
-    ];
-    let candidate = candidate(law.id(), EffectPlace::ReportLink, component, &["probability", name], &bounds)?;
-    Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, drawn, signals, beside: None })
+    each: Vec<(usize, Reading)>,
 }
 
-/// What a law drew, read off a recording by itself.
-struct ByRecording {
-    readings: Vec<(usize, Reading)>,
-    law: Law,
-}
-
-impl ByRecording {
-    /// Of the recordings of `subject`; `None` where they do not show it.
-    fn of(subject: &Subject, bare: &Prediction, law: Law) -> Option<ByRecording> {
-        let (itself, levels) = itself::of(subject, bare, law);
-        let read = |signal: usize| Some((signal, Reading::of(subject, &itself, signal, law, false)?));
-        let readings: Vec<(usize, Reading)> = levels.into_iter().filter_map(read).collect();
-        (!readings.is_empty()).then_some(ByRecording { readings, law })
+impl Readings {
+    /// Of these signals, those that show it beside a prediction; `is_known`: another signal has shown it already.
+    fn of(
+        subject: &Subject,
+        prediction: &Prediction,
+        signals: impl IntoIterator<Item = usize>,
+        law: Law,
+        is_known: bool,
+    ) -> Readings {
+        let read = |signal: usize| Some((signal, Reading::of(subject, prediction, signal, law, is_known)?));
+        Readings { law, each: signals.into_iter().filter_map(read).collect() }
     }
 
-    /// Whether that is what it was by all that is known of the law: a contact is one signal's, and is loose whatever should be read; reports are lost by
-    /// chance.
+    /// Of the levels that show it by themselves.
+    fn by_themselves(subject: &Subject, bare: &Prediction, law: Law) -> Readings {
+        let (itself, levels) = itself::of(subject, bare, law);
+        Readings::of(subject, &itself, levels, law, false)
+    }
+
+    /// Whether it is what it was by all that is known of the law: a contact is one signal's, and is loose whatever should be read; reports are lost by chance.
     fn is_so(&self) -> bool {
-        match (self.law, self.readings.as_slice()) {
+        match (self.law, self.each.as_slice()) {
             (Law::Away, [(_, reading)]) => reading.is_whatever_is_read(),
             (Law::Away, _) => false,
             // The signal that shows the most of it misses the least.
-            (Law::Lost, readings) => {
-                let most = readings.iter().map(|(_, reading)| reading).max_by_key(|reading| reading.drawn());
+            (Law::Lost, each) => {
+                let most = each.iter().map(|(_, reading)| reading).max_by_key(|reading| reading.drawn());
                 most.is_some_and(Reading::is_drawn_each_time)
             }
         }
     }
 
-    /// Takes it out of the recordings: what is lost of one signal is of all that are reported with it.
+    /// Takes it out of the recordings.
     fn take_out(&self, subject: &mut Subject) {
-        for (signal, reading) in &self.readings {
-            let all = match self.law {
-                Law::Away => *signal..signal + 1,
-                Law::Lost => 0..subject.signals.len(),
-            };
-            all.for_each(|other| reading.take_out(subject, other));
+        self.each.iter().for_each(|(signal, reading)| reading.take_out(subject, *signal));
+    }
+
+    /// The same where only levels that move on and on have shown it: what is lost of one signal is of all that are reported with it.
+    fn take_out_of_all(&self, subject: &mut Subject) {
+        match self.law {
+            Law::Away => self.take_out(subject),
+            Law::Lost => {
+                let all = 0..subject.signals.len();
+                self.each
+                    .iter()
+                    .for_each(|(_, reading)| all.clone().for_each(|other| reading.take_out(subject, other)));
+            }
         }
+    }
+
+    /// As an effect of `subject`; beside it the device without what was drawn, and its nominal parameters.
+    fn named(&self, (subject, other, bare): (&Subject, Subject, Bare), drawn: Drawn) -> Option<Chance> {
+        let all = Reading::sum(self.each.iter().map(|(_, reading)| reading));
+        let signals: Vec<usize> = self.each.iter().map(|(signal, _)| *signal).collect();
+        // All that could show it do: it is the link's, not one signal's.
+        let is_shown_by = |signal: usize| Reading::could_show(&other, &bare.prediction, signal, self.law);
+        let could = (0..subject.signals.len()).filter(|signal| is_shown_by(*signal)).count();
+        let is_whole = self.law == Law::Lost && signals.len() > 1 && could <= signals.len();
+        let component = (!is_whole && signals.len() == 1 && (could > 1 || self.law == Law::Away))
+            .then(|| subject.signals[signals[0]].property.clone());
+        let (least, share, most) = all.share();
+        let (name, time) = self.law.time(&all);
+        let bounds = vec![
+            Bounds { value: share, interval: [least, most], is_identifiable: true },
+            Bounds { value: time.0, interval: time.1, is_identifiable: true },
+        ];
+        let candidate = candidate(self.law.id(), EffectPlace::ReportLink, component, &["probability", name], &bounds)?;
+        Some(Chance { candidate, bounds, subject: other, bare, misfit: all.misfit, drawn, signals, beside: None })
     }
 }
 
@@ -336,13 +330,14 @@ fn taken_out_by_itself(
     if !is_asked(law.id()) {
         return None;
     }
-    let found = ByRecording::of(subject, &bare.prediction, law).filter(ByRecording::is_so)?;
+    let found = Readings::by_themselves(subject, &bare.prediction, law);
+    if !found.is_so() {
+        return None;
+    }
     let mut other = subject.clone();
-    found.take_out(&mut other);
-    let nominal = other.predict(&[], &Overrides::none()).ok()?;
-    other.find_floors(&nominal, Timing::AsFound);
-    let bare = fitted(&mut other, bare, &nominal);
-    named((subject, other, bare), &found.readings, law, Drawn::ByItself(law))
+    found.take_out_of_all(&mut other);
+    let (other, bare) = without(other, bare, None)?;
+    found.named((subject, other, bare), Drawn::ByItself(law))
 }
 
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
@@ -387,9 +382,7 @@ fn in_steps(place: usize, study: &Study) -> Option<Chance> {
     let (signal, steps, misfit) = steps::find(place, study)?;
     let mut other = subject.clone();
     steps.take_out(&mut other, &bare.prediction, signal);
-    let nominal = other.predict(&[], &Overrides::none()).ok()?;
-    other.find_floors(&bare.prediction, Timing::AsFound);
-    let bare = fitted(&mut other, bare, &nominal);
+    let (other, bare) = without(other, bare, Some(&bare.prediction))?;
     let component = Some(subject.signals[signal].property.clone());
     let bounds = vec![steps.bounds()];
     let candidate = candidate("quantisation", EffectPlace::Sensor, component, &["step"], &bounds)?;
@@ -403,6 +396,14 @@ fn in_steps(place: usize, study: &Study) -> Option<Chance> {
         signals: vec![signal],
         beside: None,
     })
+}
+
+/// A device that something was taken out of with its floors, by what is predicted of it or else by its law, and its nominal parameters found anew.
+fn without(mut other: Subject, bare: &Bare, prediction: Option<&Prediction>) -> Option<(Subject, Bare)> {
+    let nominal = other.predict(&[], &Overrides::none()).ok()?;
+    other.find_floors(prediction.unwrap_or(&nominal), Timing::AsFound);
+    let bare = fitted(&mut other, bare, &nominal);
+    Some((other, bare))
 }
 
 /// The nominal parameters of a device whose recording changed, and its floors under them.
@@ -445,8 +446,8 @@ mod tests {
     use crate::gap::prediction::Predicted;
     use crate::gap::recorded_tests::{RUBBING_AXIS, study};
 
-    /// The recorded motor with its speed away in one of `every` windows of 0.2 s, and its encoder a hundredth too fast, or not.
-    fn with_a_loose_contact(every: usize, is_too_fast: bool) -> (Study, usize) {
+    /// The recorded motor with its levels as `reads` has them: of a count or not, the sample's number and its instant, what the law has there, and what stands there.
+    fn motor(mut reads: impl FnMut(bool, (usize, f64), f64, f64) -> f64) -> (Study, usize) {
         let mut study = study(RUBBING_AXIS);
         let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
         let prediction = study.bare[place].prediction.clone();
@@ -459,18 +460,34 @@ mod tests {
             };
             let instants = track.grid.instants.clone();
             for (k, (value, law)) in track.values.iter_mut().zip(values).enumerate() {
-                if info.is_count && is_too_fast {
-                    *value = (1.01 * law).floor();
-                }
-                let window = (instants[track.first + k] / 0.2) as usize;
-                if !info.is_count && window % every == 1 {
-                    *value = 0.0;
-                }
+                *value = reads(info.is_count, (k, instants[track.first + k]), *law, *value);
             }
         }
         assert!(subject.signals.iter().any(|info| info.is_count) && subject.signals.iter().any(|info| !info.is_count));
         subject.find_floors(&prediction, Timing::AsFound);
         (study, place)
+    }
+
+    /// With its speed away in one of `every` windows of 0.2 s, and its encoder a hundredth too fast, or not.
+    fn with_a_loose_contact(every: usize, is_too_fast: bool) -> (Study, usize) {
+        motor(|is_count, (_, at), law, stands| match is_count {
+            true if is_too_fast => (1.01 * law).floor(),
+            false if (at / 0.2) as usize % every == 1 => 0.0,
+            _ => stands,
+        })
+    }
+
+    /// As sensors read it that are a fifth too high; of its reports one in five brings nothing new by chance, or each third in turn.
+    fn with_lost_reports(is_in_turn: bool) -> (Study, usize) {
+        let (mut drawn, mut last) = (0_u64, 0.0);
+        motor(|is_count, (k, _), law, _| {
+            // Numbers that look drawn: those of D. H. Lehmer's generator with the factor 48271, the same for each signal.
+            drawn = if k == 0 { 20_261_126 } else { drawn * 48_271 % 2_147_483_647 };
+            let is_lost = k > 0 && if is_in_turn { k % 3 == 1 } else { drawn.is_multiple_of(5) };
+            let fresh = if is_count { (1.2 * law).floor() } else { 1.2 * law };
+            last = if is_lost { last } else { fresh };
+            last
+        })
     }
 
     fn found(study: &Study, place: usize) -> Option<(String, Option<String>)> {
@@ -491,33 +508,6 @@ mod tests {
         }
         let (study, place) = with_a_loose_contact(usize::MAX, true);
         assert_eq!(found(&study, place), None);
-    }
-
-    /// The recorded motor as sensors read it that are a fifth too high; of its reports one in five brings nothing new by chance, or each third in turn.
-    fn with_lost_reports(is_in_turn: bool) -> (Study, usize) {
-        let mut study = study(RUBBING_AXIS);
-        let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
-        let prediction = study.bare[place].prediction.clone();
-        let subject = &mut study.subjects[place];
-        for (signal, info) in subject.signals.iter().enumerate() {
-            let (Some(track), Predicted::Level(values)) =
-                (&mut subject.runs[0].tracks[signal], &prediction.runs[0][signal])
-            else {
-                continue;
-            };
-            // Numbers that look drawn: those of D. H. Lehmer's generator with the factor 48271.
-            let mut drawn = 20_261_126_u64;
-            let mut last = track.values[0];
-            for (k, (value, law)) in track.values.iter_mut().zip(values).enumerate() {
-                drawn = drawn * 48_271 % 2_147_483_647;
-                let is_lost = if is_in_turn { k % 3 == 1 } else { drawn.is_multiple_of(5) };
-                let fresh = if info.is_count { (1.2 * law).floor() } else { 1.2 * law };
-                last = if is_lost { last } else { fresh };
-                *value = last;
-            }
-        }
-        subject.find_floors(&prediction, Timing::AsFound);
-        (study, place)
     }
 
     #[test]
@@ -541,6 +531,9 @@ mod tests {
         let again = beside((subject, bare), (&gains, &bare.overrides), Some(&chance), &|_| true).expect("all of them");
         let [least, most] = again.bounds[0].interval;
         assert!((least..=most).contains(&0.2), "{:?}", again.bounds);
+        // They show it though nothing was found before.
+        let shown = beside((subject, bare), (&gains, &bare.overrides), None, &|_| true).expect("all of them");
+        assert_eq!(shown.bounds[0].value, again.bounds[0].value);
         let (study, place) = with_lost_reports(true);
         assert!(find(place, &study, &|id| id == "lost-messages", &|| false).is_none());
     }

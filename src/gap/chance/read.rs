@@ -480,23 +480,10 @@ mod tests {
     use super::*;
     use crate::gap::{Floor, Grid};
 
-    fn track(values: Vec<f64>) -> Track {
-        Track {
-            grid: Arc::new(Grid::of_steps(0.01, 0.01 * values.len() as f64)),
-            first: 0,
-            values,
-            initial: 0.0,
-            edges: Vec::new(),
-            origins: Vec::new(),
-            tolerance: 0.0,
-            blind: Vec::new(),
-        }
-    }
-
     fn read(values: Vec<f64>, predicted: &[f64], law: Law) -> (Option<()>, Reading) {
         let floor = Floor { step: 0.01, noise: 0.01, ..Floor::default() };
         let mut reading = Reading { cycle: 0.01, ..Reading::default() };
-        (reading.level(&track(values), predicted, 0.0, &floor, law), reading)
+        (reading.level(&Track::of_values(values), predicted, 0.0, &floor, law), reading)
     }
 
     /// A level that climbs by a step a cycle; samples 20 to 29 and 60 to 69 are away.
@@ -565,7 +552,7 @@ mod tests {
     #[test]
     fn what_is_late_by_a_part_of_a_cycle_was_not_lost() {
         let read = |is_late: &dyn Fn(usize, f64) -> bool| {
-            let mut flag = track(Vec::new());
+            let mut flag = Track::of_values(Vec::new());
             flag.grid = Arc::new(Grid::of_steps(0.01, 20.0));
             let mut predicted = Vec::new();
             for k in 0..60_usize {
@@ -585,7 +572,7 @@ mod tests {
     #[test]
     fn a_flag_that_is_up_for_few_windows_is_away_by_windows() {
         let read_as = |late: &dyn Fn(usize) -> f64, is_away: &dyn Fn(usize) -> bool, is_beam: bool| {
-            let mut flag = track(Vec::new());
+            let mut flag = Track::of_values(Vec::new());
             flag.grid = Arc::new(Grid::of_steps(0.01, 60.0));
             let index = |at: f64| (at / 0.01).ceil() as usize;
             let mut state = vec![0.0; 6100];
@@ -616,7 +603,7 @@ mod tests {
     /// Of a flag that goes up at 10 and down at 50, and is away from 20 to 29, nothing but its two edges is left.
     #[test]
     fn a_flag_is_mended_where_it_was_away() {
-        let mut flag = track(Vec::new());
+        let mut flag = Track::of_values(Vec::new());
         flag.grid = Arc::new(Grid::of_steps(0.01, 0.99));
         flag.edges = [(10, 1.0), (20, 0.0), (30, 1.0), (50, 0.0)].map(|(index, to)| Edge { index, to }).to_vec();
         take_out_of_flag(&mut flag, &[(20, 29)]);

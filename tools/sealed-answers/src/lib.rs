@@ -45,8 +45,16 @@ pub enum SealError {
     #[error("{}: no key: expected 64 hexadecimal digits", path.display())]
     NoKey { path: PathBuf },
     /// There is nothing to go on with.
-    #[error("{} was not begun, or is whole: expected the parts of an exam that was interrupted", path.display())]
+    #[error(
+        "{} was not begun, or is whole: expected the parts of an exam that was interrupted; leave out --resume to begin",
+        path.display()
+    )]
     NotBegun { path: PathBuf },
+    /// What was made of an exam would be lost.
+    #[error(
+        "{} holds parts of an exam that was interrupted: go on with --resume, or remove it to begin anew", path.display()
+    )]
+    Begun { path: PathBuf },
     /// The answers' file is of another kind.
     #[error("{}: no sealed answers: expected a file that withheld-plant has written", path.display())]
     NotSealed { path: PathBuf },
@@ -199,11 +207,18 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Of an exam of which nothing is written yet, under a new key, written to `key`.
+    /// Of an exam of which nothing is written yet, under a new key, written to `key`: not beside the parts of another, whose key that would replace.
     pub fn begin(exam: &Path, key: &Path) -> Result<Draft, SealError> {
+        Draft::none_of(exam)?;
         let folder = beside(exam, ".part");
         fs::create_dir_all(&folder).map_err(at(&folder))?;
         Ok(Draft { exam: exam.to_owned(), folder, secret: new_key(key)? })
+    }
+
+    /// Nothing, where none was begun.
+    pub fn none_of(exam: &Path) -> Result<(), SealError> {
+        let path = beside(exam, ".part");
+        if path.exists() { Err(SealError::Begun { path }) } else { Ok(()) }
     }
 
     /// Of one that was begun, and is not whole.
@@ -400,6 +415,7 @@ mod tests {
         Draft::begin(&path, &key).and_then(|draft| draft.keep("case-001", b"the first truth")).expect("kept");
         let part = folder.path().join("exam.part").join("case-001.sealed");
         assert!(!fs::read(&part).expect("a part").windows(5).any(|window| window == b"truth"));
+        assert!(matches!(Draft::begin(&path, &key), Err(SealError::Begun { .. })));
         let draft = Draft::resume(&path, &key).expect("what was begun");
         assert_eq!(draft.kept("case-001").expect("it opens"), Some(b"the first truth".to_vec()));
         assert_eq!(draft.kept("case-002").expect("nothing yet"), None);

@@ -116,6 +116,7 @@ fn cases(asked: &Cases) -> Result<String, ExamError> {
         let begun = Begun::again(asked, &draft)?;
         (draft, begun)
     } else {
+        Draft::none_of(&asked.folder)?;
         is_new(&asked.folder)?;
         let draft = Draft::begin(&asked.folder, &key)?;
         let begun = Begun::new(asked);

@@ -134,8 +134,7 @@ impl Servo {
     fn exerted(&self, asked: f64, others: usize) -> f64 {
         let side = if asked < 0.0 { self.backwards } else { 1.0 };
         let fade = self.fades.map_or(1.0, |(share, _)| 1.0 - share * self.heat);
-        let supply = if self.supply != 1.0 { self.supply.powi(others as i32) } else { 1.0 };
-        let force = asked * self.gain * side * fade * supply;
+        let force = asked * self.gain * side * fade * self.supply.powi(others as i32);
         if self.saturates.is_finite() { self.saturates * (force / self.saturates).tanh() } else { force }
     }
 
@@ -331,8 +330,7 @@ impl Friction {
         let warmth = self.warms.map_or(0.0, |(rise, time)| rise * (1.0 - (-self.clock / time).exp()));
         let along =
             self.along.map_or(0.0, |[amplitude, period, phase]| amplitude * (TAU * position / period + phase).sin());
-        let falls =
-            if self.stribeck > 0.0 { self.stribeck * fades((speed / self.stribeck_speed).powi(2)) } else { 0.0 };
+        let falls = self.stribeck * fades((speed / self.stribeck_speed).powi(2));
         (self.coulomb * (1.0 + warmth) + along + falls + self.by_load * drive.abs()).max(0.0)
     }
 

@@ -54,10 +54,11 @@ fn what_was_interrupted_goes_on_and_is_the_same() {
     making.wait().expect("it has ended");
     assert!(!cut.join("answers.sealed").exists(), "it was made before it was interrupted");
 
-    assert!(said(&[]).contains("exists: expected a folder that is not there yet"));
+    assert!(said(&[]).contains("go on with --resume, or remove it to begin anew"));
     assert!(said_of(cases(&cut, "6", &["--resume"])).contains("was begun with other arguments"));
     assert!(run(&cut, &["--resume"]).status.success());
     assert!(files(&whole) == files(&cut), "another exam came of it");
     assert!(cut.join("answers.sealed").exists() && !place.path().join("cut.part").exists());
     assert!(said(&["--resume"]).contains("was not begun, or is whole"));
+    assert!(said(&[]).contains("exists: expected a folder that is not there yet"));
 }
