@@ -259,16 +259,19 @@ impl<'a> Bench<'a> {
     /// How far `set`, with all that is free beside it, stays from `output` when it is fitted to it: whitened and squared.
     /// `at` is where the fit begins.
     pub fn distance(&self, output: &Prediction, set: &[Candidate], at: &[f64]) -> Option<f64> {
-        let apart = |at: &[f64]| {
-            let mut residuals = self.subject.apart(output, &*self.predict(set, at)?);
-            residuals.extend(self.strain(set, at));
-            (!self.is_stopped()).then_some(residuals)
-        };
+        let apart = |at: &[f64]| self.apart(output, set, at);
         let ranges = self.ranges(set);
         if ranges.is_empty() {
             return Some(fit::sum_of_squares(&apart(at)?));
         }
         Some(fit::least_squares(&apart, at, &ranges, 10 + 8 * ranges.len() as u32)?.cost)
+    }
+
+    /// How `set` at `at` differs from `output`, whitened, those of the nuisances' tolerances behind.
+    pub fn apart(&self, output: &Prediction, set: &[Candidate], at: &[f64]) -> Option<Vec<f64>> {
+        let mut residuals = self.subject.apart(output, &*self.predict(set, at)?);
+        residuals.extend(self.strain(set, at));
+        (!self.is_stopped()).then_some(residuals)
     }
 
     /// How many blocks a run has.

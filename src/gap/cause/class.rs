@@ -7,6 +7,7 @@ use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Tell, anew, handicap};
 use super::rung::rung;
 use super::unseen::unseen;
+use crate::gap::fit::{Range, sum_of_squares};
 use crate::gap::statistics::{Draws, SAME_CLASS};
 use crate::plant::EffectPlace;
 
@@ -89,7 +90,7 @@ fn answer(
     let inflation = best.inflation();
     let near = near(bench, best, others);
     let mut alternatives: Vec<Alternative> =
-        near.into_par_iter().filter_map(|trial| alternative(bench, best, named, trial)).collect();
+        near.into_par_iter().filter_map(|trial| alternative(bench, (best, place), trial)).collect();
     alternatives.sort_by(|a, b| b.is_same.cmp(&a.is_same).then(a.trial.cost.total_cmp(&b.trial.cost)));
     // An effect that holds the answer as a special case explains no less: it is no rival. A nominal parameter that gives the
     // same motion is another name for it.
@@ -134,12 +135,30 @@ fn without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial> {
 }
 
 /// Fits the candidate with all else to the answer's own output.
-fn alternative(bench: &Bench<'_>, best: &Trial, named: &Candidate, trial: Trial) -> Option<Alternative> {
+fn alternative(bench: &Bench<'_>, (best, place): (&Trial, usize), trial: Trial) -> Option<Alternative> {
     let output = bench.predict(&best.set, &best.at)?;
-    let distance = bench.distance(&output, &trial.set, &trial.at)?;
-    let last = trial.set.last()?;
+    let apart = |at: &Vec<f64>| bench.apart(&output, &trial.set, at).map(|apart| (sum_of_squares(&apart), at.clone()));
+    let starts = starts(bench, (best, place), &trial);
+    let (_, nearest) = starts.iter().filter_map(apart).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    // Of the price of nominal parameters that are off, the answer itself has paid its own.
+    let paid = sum_of_squares(&bench.strain(&best.set, &best.at));
+    let distance = (bench.distance(&output, &trial.set, &nearest)? - paid).max(0.0);
+    let (named, last) = (&best.set[place], trial.set.last()?);
     let is_same = distance < SAME_CLASS * best.inflation() && last.numbers() <= named.numbers();
     Some(Alternative { trial, distance, is_same, weight: 0.0 })
+}
+
+/// Where the fit of a candidate to the answer's output may begin: where it costs least by the recordings, the same beside all else as the answer has
+/// it, and with the answer's own numbers, which a play of a sensor has in common with one of what it looks at.
+fn starts(bench: &Bench<'_>, (best, place): (&Trial, usize), trial: &Trial) -> Vec<Vec<f64>> {
+    let carried = bench.carried(&trial.set, &best.overrides);
+    let all: Vec<&[f64]> = best.values().map(|(_, own)| own).collect();
+    let others = [&all[..place], &all[place + 1..]].concat().concat();
+    let Some((candidate, own)) = trial.values().last() else { return vec![trial.at.clone()] };
+    let with = |own: &[f64]| [&others, own, &carried].concat();
+    let is_within = |(range, value): (Range, &f64)| (range.least..=range.greatest).contains(value);
+    let fits = candidate.free.len() == all[place].len() && candidate.ranges().zip(all[place]).all(is_within);
+    [trial.at.clone(), with(own)].into_iter().chain(fits.then(|| with(all[place]))).collect()
 }
 
 /// In which share of the draws of blocks kept back each wins; a class shares its weight evenly among its members, as nothing tells them apart.
@@ -167,4 +186,25 @@ fn weigh(bench: &Bench<'_>, ladder: &Ladder, mut answer: Answer) -> Answer {
         answer.alternatives[*at].weight = *win;
     }
     answer
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::cause::axis_tests::rubbing_axis;
+    use crate::gap::cause::nuisance::Nuisance;
+
+    /// A machine whose mass is five deviations off pays for that whatever is named beside it: the same friction is no other for it, wherever
+    /// its own fit has ended.
+    #[test]
+    fn what_the_answers_own_machine_pays_parts_it_from_nothing() {
+        let (subject, _, rubs) = rubbing_axis();
+        let stop = || false;
+        let mass = Nuisance { name: "M", nominal: 20.0, deviation: 0.1, reach: 6.0 };
+        let bench = Bench::new(&subject, vec![mass], &stop);
+        let best = bench.trial(&rubs, vec![30.0, 20.5]).expect("a trial");
+        let other = bench.trial(&rubs, vec![90.0, 20.0]).expect("a trial");
+        let found = alternative(&bench, (&best, 0), other).expect("an alternative");
+        assert!(found.is_same && found.distance < 1.0, "{}", found.distance);
+    }
 }

@@ -112,7 +112,7 @@ pub fn rung(
 }
 
 /// Effects of one parameter that move levels each in a way of its own; what others do goes with one of them, or with the motion itself.
-const WITNESSES: [&str; 10] = [
+const WITNESSES: [&str; 11] = [
     "acceleration-limit",
     "backlash",
     "breakaway-friction",
@@ -123,6 +123,7 @@ const WITNESSES: [&str; 10] = [
     "first-order-lag",
     "input-filter",
     "jerk-limit",
+    "load-dependent-friction",
 ];
 
 /// What an effect takes away of a device's deviance though nothing that is asked of all motions shows that anything is off: the greatest
@@ -638,8 +639,24 @@ impl Looks<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::cause::axis_tests::rubbing_axis;
+    use crate::gap::THRESHOLD;
+    use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
     use crate::gap::cause::library::candidates;
+
+    /// What a load lets rub moves an axis whose noise hides it in a way that no other witness does.
+    #[test]
+    fn friction_by_load_is_seen_beneath_the_noise() {
+        let (mut subject, nominal, _) = rubbing_axis();
+        let is_meant = |id: &str| id == "load-dependent-friction";
+        let set = [candidates(&subject, &nominal, &subject.score(&nominal), &is_meant).swap_remove(0)];
+        let stop = || false;
+        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&set, &[0.02]).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let bare = bench.trial(&[], Vec::new()).expect("a trial");
+        let found = beneath(&bench, &bare, THRESHOLD, &is_meant).unwrap_or(0.0);
+        assert!(found > THRESHOLD, "{found}");
+    }
 
     /// Of two units the one that costs less by noise alone, though not as the gap weighs it; of friction's places the cheapest.
     #[test]
