@@ -167,6 +167,19 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
     cuts
 }
 
+/// Whether a beam is cut while the belt goes on by more than any part is long.
+pub(super) fn is_cut_for_too_long(geometry: &Geometry, track: &Track, travel: &dyn Fn(f64) -> f64) -> bool {
+    let longest = geometry.lengths.iter().copied().fold(0.0, f64::max);
+    let ends = track.grid.instants.last().copied().unwrap_or(0.0);
+    let changes = track.edges.iter().map(|edge| (middle(track, edge.index), edge.to)).chain([(ends, 0.0)]);
+    let (mut cut_since, mut is_too_long) = ((track.initial != 0.0).then_some(0.0), false);
+    for (at, to) in changes {
+        is_too_long |= cut_since.is_some_and(|since| (travel(at) - travel(since)).abs() > STAYS * longest);
+        cut_since = (to != 0.0).then_some(at);
+    }
+    is_too_long
+}
+
 /// A part that left a beam, and where it is from there.
 struct Left {
     /// The place of its first cut of that beam.

@@ -144,9 +144,11 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, bes
     script
 }
 
-/// How many parts of a known length a barrier must show when it is read the other way round, and how many times more than as it is.
+/// How many parts of a known length a barrier must show when it is read the other way round, and how many times more than as it is; how many
+/// where it shows none as it is and no part cuts a beam for so long, and all that it then shows are.
 const ENOUGH: usize = 3;
 const FAR_MORE: usize = 2;
+const ENOUGH_WHERE_NONE_FIT: usize = 2;
 
 /// The parts on a belt as its barriers show them; where one shows next to nothing that is as long as a part, and the gaps between are,
 /// its signal is inverted: then what it stands for is told, so that the signal is off and not the parts.
@@ -155,17 +157,22 @@ fn likeliest_reading(
     tracks: [Option<&Track>; 2],
     travel: &dyn Fn(f64) -> f64,
 ) -> (Script, [Vec<Origin>; 2]) {
-    let fitting = |read: &(Script, [Vec<Origin>; 2]), beam: usize| {
-        read.0.cuts.iter().filter(|cut| cut.beam == beam && cut.length.is_finite()).count()
+    let counted = |read: &(Script, [Vec<Origin>; 2]), beam: usize| {
+        let of_beam = || read.0.cuts.iter().filter(|cut| cut.beam == beam);
+        (of_beam().filter(|cut| cut.length.is_finite()).count(), of_beam().count())
     };
     let mut best = parts::assign(geometry, tracks, travel);
     for beam in [0, 1] {
-        let plainly = fitting(&best, beam);
-        let Some(inverted) = tracks[beam].map(Track::inverted) else { continue };
+        let (plainly, _) = counted(&best, beam);
+        let Some(track) = tracks[beam] else { continue };
+        let inverted = track.inverted();
         let mut read = tracks;
         read[beam] = Some(&inverted);
         let other = parts::assign(geometry, read, travel);
-        if fitting(&other, beam) >= ENOUGH.max(FAR_MORE * plainly + 1) {
+        let (fitting, all) = counted(&other, beam);
+        let none_fits = || plainly == 0 && parts::is_cut_for_too_long(geometry, track, travel);
+        let all_fit = fitting >= ENOUGH_WHERE_NONE_FIT && fitting == all;
+        if fitting >= ENOUGH.max(FAR_MORE * plainly + 1) || all_fit && none_fits() {
             best = other;
         }
     }
@@ -298,5 +305,31 @@ mod tests {
         let other = likeliest_reading(&geometry, [Some(&a.inverted()), Some(&b)], &|at| 0.5 * at);
         assert_eq!(plain.0.cuts.len(), 8);
         assert_eq!(plain.0.cuts, other.0.cuts);
+    }
+
+    /// Two parts are enough where a barrier is cut as far as no part is long; one is not, nor are two between which a part could have passed.
+    #[test]
+    fn a_barrier_that_hardly_any_part_passes_is_read_the_other_way_round() {
+        let geometry = Geometry {
+            beams: [Some(0.3), Some(1.7)],
+            lengths: vec![0.3],
+            tolerance: 0.0,
+            lane: Arc::default(),
+            fed: None,
+            hands: Default::default(),
+        };
+        let read = |cuts: &[(f64, f64)]| {
+            let inverted = track(cuts).inverted();
+            let (script, _) = likeliest_reading(&geometry, [Some(&inverted), None], &|at| 0.5 * at);
+            script
+                .cuts
+                .iter()
+                .filter(|cut| cut.beam == 0 && cut.length.is_finite())
+                .map(|cut| cut.from)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(read(&[(19.01, 19.61), (41.01, 41.61)]).len(), 2);
+        assert!(read(&[(19.01, 19.61)]).is_empty());
+        assert_eq!(read(&[(19.01, 19.61), (20.21, 20.81)]).len(), 1);
     }
 }

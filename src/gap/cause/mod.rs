@@ -7,6 +7,7 @@ mod bench;
 mod blur;
 mod candidate;
 mod class;
+mod glance;
 mod intervals;
 mod ladder;
 mod latest;
