@@ -28,6 +28,31 @@ pub(super) struct Geometry {
     pub hands: [Vec<(f64, f64)>; 2],
 }
 
+impl Geometry {
+    /// Whether a belt that goes on so far, m, must have taken out of a beam whatever cut it.
+    fn is_further_than_parts(&self, way: f64) -> bool {
+        way.abs() > STAYS * self.longest()
+    }
+
+    /// How long the longest part is, m.
+    fn longest(&self) -> f64 {
+        self.lengths.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// That of the rig's belt, on which nothing else is known.
+    #[cfg(test)]
+    pub(super) fn of_rig() -> Geometry {
+        Geometry {
+            beams: [Some(0.3), Some(1.7)],
+            lengths: vec![0.3],
+            tolerance: 0.0,
+            lane: Arc::default(),
+            fed: None,
+            hands: Default::default(),
+        }
+    }
+}
+
 /// How far from where it is expected a part may be seen, m, and as a share of its way.
 const GATE_M: f64 = 0.08;
 const GATE: f64 = 0.08;
@@ -134,7 +159,6 @@ fn play_initial(beam: usize, track: &Track, script: &mut Script) {
 
 fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) -> f64) -> Vec<Seen> {
     let mut cuts = Vec::new();
-    let longest = geometry.lengths.iter().copied().fold(0.0, f64::max);
     let last = track.grid.instants.last().copied().unwrap_or(0.0);
     for (rise, edge) in track.edges.iter().enumerate().filter(|(_, edge)| edge.to != 0.0) {
         let fall = track.edges.get(rise + 1).map(|_| rise + 1);
@@ -147,7 +171,7 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
         let way = if end - before < 0.0 { -1.0 } else { 1.0 };
         let is_seen = geometry.beams[beam].is_some();
         if is_seen {
-            let stays = fall.is_none() && (travel(last) - start).abs() > STAYS * longest;
+            let stays = fall.is_none() && geometry.is_further_than_parts(travel(last) - start);
             cuts.push(Seen {
                 beam,
                 rise,
@@ -169,15 +193,10 @@ fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) ->
 
 /// Whether a beam is cut while the belt goes on by more than any part is long.
 pub(super) fn is_cut_for_too_long(geometry: &Geometry, track: &Track, travel: &dyn Fn(f64) -> f64) -> bool {
-    let longest = geometry.lengths.iter().copied().fold(0.0, f64::max);
     let ends = track.grid.instants.last().copied().unwrap_or(0.0);
-    let changes = track.edges.iter().map(|edge| (middle(track, edge.index), edge.to)).chain([(ends, 0.0)]);
-    let (mut cut_since, mut is_too_long) = ((track.initial != 0.0).then_some(0.0), false);
-    for (at, to) in changes {
-        is_too_long |= cut_since.is_some_and(|since| (travel(at) - travel(since)).abs() > STAYS * longest);
-        cut_since = (to != 0.0).then_some(at);
-    }
-    is_too_long
+    let edges = track.edges.iter().map(|edge| (middle(track, edge.index), edge.to));
+    let states: Vec<(f64, f64)> = [(0.0, track.initial)].into_iter().chain(edges).chain([(ends, 0.0)]).collect();
+    states.windows(2).any(|of| of[0].1 != 0.0 && geometry.is_further_than_parts(travel(of[1].0) - travel(of[0].0)))
 }
 
 /// A part that left a beam, and where it is from there.
@@ -194,7 +213,7 @@ struct Left {
 
 /// Finds the cuts of parts that the belt brings back to a beam which they had left.
 fn find_again(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f64) {
-    let longest = geometry.lengths.iter().copied().fold(0.0, f64::max);
+    let longest = geometry.longest();
     for beam in 0..2 {
         let mut left: Vec<Left> = Vec::new();
         for at in (0..seen.len()).filter(|at| seen[*at].beam == beam).collect::<Vec<_>>() {
@@ -492,37 +511,6 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::gap::{Edge, Grid};
-
-    const CYCLE_S: f64 = 0.02;
-
-    /// A barrier that was cut in these spans, s, looked at every 20 ms.
-    fn barrier(cuts: &[(f64, f64)]) -> Track {
-        let edge = |at: f64, to: f64| Edge { index: (at / CYCLE_S).ceil() as usize, to };
-        let edges = cuts.iter().flat_map(|(from, to)| [edge(*from, 1.0), edge(*to, 0.0)]).collect();
-        let grid = Arc::new(Grid::of_steps(CYCLE_S, 60.0));
-        Track {
-            grid,
-            first: 0,
-            values: Vec::new(),
-            initial: 0.0,
-            edges,
-            origins: Vec::new(),
-            tolerance: 0.0,
-            blind: Vec::new(),
-        }
-    }
-
-    fn rig() -> Geometry {
-        Geometry {
-            beams: [Some(0.3), Some(1.7)],
-            lengths: vec![0.3],
-            tolerance: 0.0,
-            lane: Arc::default(),
-            fed: None,
-            hands: Default::default(),
-        }
-    }
 
     /// A belt of the rig's that always runs at 0.5 m/s.
     fn of_rig(a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
@@ -532,7 +520,7 @@ mod tests {
     /// The same that goes this way.
     fn of_rig_that(travel: &dyn Fn(f64) -> f64, a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
         let lane = Arc::new(Lane { length: 2.0, shares: false, ends: [End::Open, End::Open] });
-        assign(&Geometry { lane, ..rig() }, [Some(&barrier(a)), Some(&barrier(b))], travel)
+        assign(&Geometry { lane, ..Geometry::of_rig() }, [Some(&Track::of_cuts(a)), Some(&Track::of_cuts(b))], travel)
     }
 
     #[test]
@@ -622,16 +610,16 @@ mod tests {
         let (script, origins) = of_rig(&[(1.01, 1.61)], &[(8.0, 8.1)]);
         assert_eq!(origins[1], [Origin::Part(1), Origin::Input]);
         let cut = script.cuts.iter().find(|cut| cut.part == 1).expect("its cut");
-        assert!(cut.taken.is_some_and(|taken| (taken - 8.1).abs() < CYCLE_S) && cut.ahead == 0.0);
+        assert!(cut.taken.is_some_and(|taken| (taken - 8.1).abs() < 0.02) && cut.ahead == 0.0);
     }
 
     /// The first part stays in barrier B, which the belt leaves behind; those after it never leave it.
     #[test]
     fn parts_are_missed_at_a_barrier_that_stays_cut_and_only_there() {
-        let mut stuck = barrier(&[(3.81, 4.41)]);
+        let mut stuck = Track::of_cuts(&[(3.81, 4.41)]);
         stuck.edges.pop();
-        let a = barrier(&[(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)]);
-        let (script, _) = assign(&rig(), [Some(&a), Some(&stuck)], &|at| 0.5 * at);
+        let a = Track::of_cuts(&[(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)]);
+        let (script, _) = assign(&Geometry::of_rig(), [Some(&a), Some(&stuck)], &|at| 0.5 * at);
         let at_b: Vec<(usize, f64)> =
             script.cuts.iter().filter(|cut| cut.beam == 1).map(|cut| (cut.part, cut.length)).collect();
         assert_eq!(at_b, [(0, 0.3), (1, 0.3), (2, 0.3)]);
@@ -644,9 +632,9 @@ mod tests {
     #[test]
     fn how_long_a_part_is_says_the_bay_that_alone_can_have_put_it() {
         // It cuts both beams for 0.26 m: nearer to another part of the plant.
-        let (a, b) = (barrier(&[(1.01, 1.53)]), barrier(&[(3.81, 4.33)]));
+        let (a, b) = (Track::of_cuts(&[(1.01, 1.53)]), Track::of_cuts(&[(3.81, 4.33)]));
         let lengths = |fed: Option<(usize, f64)>| -> Vec<f64> {
-            let geometry = Geometry { lengths: vec![0.24, 0.3], fed, ..rig() };
+            let geometry = Geometry { lengths: vec![0.24, 0.3], fed, ..Geometry::of_rig() };
             let (script, _) = assign(&geometry, [Some(&a), Some(&b)], &|at| 0.5 * at);
             script.cuts.iter().map(|cut| cut.length).collect()
         };
@@ -661,8 +649,8 @@ mod tests {
             let all = |from: f64| {
                 (0..parts).map(|k| (from + 6.0 * f64::from(k), from + 6.0 * f64::from(k) + 0.4)).collect::<Vec<_>>()
             };
-            let (a, b) = (barrier(&all(1.01)), barrier(&all(3.81)));
-            let geometry = Geometry { fed: Some((0, 0.3)), ..rig() };
+            let (a, b) = (Track::of_cuts(&all(1.01)), Track::of_cuts(&all(3.81)));
+            let geometry = Geometry { fed: Some((0, 0.3)), ..Geometry::of_rig() };
             let (script, _) = assign(&geometry, [Some(&a), Some(&b)], &|at| 0.5 * at);
             script.cuts.iter().map(|cut| cut.length).collect()
         };

@@ -256,51 +256,28 @@ fn of_gripper(kind: &KindDescriptor, parameters: &Parameters, signals: &[SignalI
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::{Edge, Grid};
-
-    /// A barrier that parts cut in these spans of time, s.
-    fn track(cuts: &[(f64, f64)]) -> Track {
-        let edge = |at: f64, to: f64| Edge { index: (at / 0.02).ceil() as usize, to };
-        Track {
-            grid: Arc::new(Grid::of_steps(0.02, 60.0)),
-            first: 0,
-            values: Vec::new(),
-            initial: 0.0,
-            edges: cuts.iter().flat_map(|(from, to)| [edge(*from, 1.0), edge(*to, 0.0)]).collect(),
-            origins: Vec::new(),
-            tolerance: 0.0,
-            blind: Vec::new(),
-        }
-    }
 
     /// At 0.5 m/s a part of 0.3 m takes 0.6 s through a beam, and 2.8 s to the next. One that has not come there by the end is not amiss; one
     /// that came 0.1 m late is, also where the belt has turned back since.
     #[test]
     fn what_is_still_under_way_is_not_amiss() {
-        let here = track(&[(1.0, 1.6), (18.0, 18.6)]);
+        let here = Track::of_cuts(&[(1.0, 1.6), (18.0, 18.6)]);
         let off = |there: &Track, instants: &[f64], metres: &[f64]| {
             let way = Way { instants: instants.to_vec(), metres: metres.to_vec() };
             mismatch((&[Some(0.3), Some(1.7)], &[0.3]), [Some(&here), Some(there)], &way).expect("parts enough")
         };
-        let in_time = track(&[(3.8, 4.4)]);
+        let in_time = Track::of_cuts(&[(3.8, 4.4)]);
         assert!(off(&in_time, &[0.0, 20.0], &[0.0, 10.0]) < OFF_M);
-        let late = track(&[(4.0, 4.6), (21.0, 21.6)]);
+        let late = Track::of_cuts(&[(4.0, 4.6), (21.0, 21.6)]);
         assert!(off(&late, &[0.0, 22.0], &[0.0, 11.0]) > OFF_M);
         assert!(off(&late, &[0.0, 22.0, 44.0], &[0.0, 11.0, 0.0]) > OFF_M);
     }
 
     #[test]
     fn an_inverted_barrier_is_read_the_other_way_round() {
-        let geometry = Geometry {
-            beams: [Some(0.3), Some(1.7)],
-            lengths: vec![0.3],
-            tolerance: 0.0,
-            lane: Arc::default(),
-            fed: None,
-            hands: Default::default(),
-        };
+        let geometry = Geometry::of_rig();
         let came = |start: f64| [0.0, 6.0, 12.0, 18.0].map(|at| (start + at, start + at + 0.6));
-        let (a, b) = (track(&came(1.01)), track(&came(3.81)));
+        let (a, b) = (Track::of_cuts(&came(1.01)), Track::of_cuts(&came(3.81)));
         let plain = likeliest_reading(&geometry, [Some(&a), Some(&b)], &|at| 0.5 * at);
         let other = likeliest_reading(&geometry, [Some(&a.inverted()), Some(&b)], &|at| 0.5 * at);
         assert_eq!(plain.0.cuts.len(), 8);
@@ -310,16 +287,9 @@ mod tests {
     /// Two parts are enough where a barrier is cut as far as no part is long; one is not, nor are two between which a part could have passed.
     #[test]
     fn a_barrier_that_hardly_any_part_passes_is_read_the_other_way_round() {
-        let geometry = Geometry {
-            beams: [Some(0.3), Some(1.7)],
-            lengths: vec![0.3],
-            tolerance: 0.0,
-            lane: Arc::default(),
-            fed: None,
-            hands: Default::default(),
-        };
+        let geometry = Geometry::of_rig();
         let read = |cuts: &[(f64, f64)]| {
-            let inverted = track(cuts).inverted();
+            let inverted = Track::of_cuts(cuts).inverted();
             let (script, _) = likeliest_reading(&geometry, [Some(&inverted), None], &|at| 0.5 * at);
             script
                 .cuts

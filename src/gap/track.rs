@@ -131,6 +131,15 @@ impl Track {
         }
     }
 
+    /// A barrier that was cut in these spans, s, looked at every 20 ms for a minute.
+    #[cfg(test)]
+    pub(super) fn of_cuts(cuts: &[(f64, f64)]) -> Track {
+        const CYCLE_S: f64 = 0.02;
+        let edge = |at: f64, to: f64| Edge { index: (at / CYCLE_S).ceil() as usize, to };
+        let edges = cuts.iter().flat_map(|(from, to)| [edge(*from, 1.0), edge(*to, 0.0)]).collect();
+        Track { grid: Arc::new(Grid::of_steps(CYCLE_S, 60.0)), edges, ..Track::of_values(Vec::new()) }
+    }
+
     /// Of a level: its values, and those predicted in their place, where they are evidence.
     pub(super) fn evident<'a>(&'a self, predicted: &'a [f64]) -> (Cow<'a, [f64]>, Cow<'a, [f64]>) {
         if self.blind.is_empty() {

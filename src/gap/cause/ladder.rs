@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::intervals::{intervals, of_each};
-use super::remainder::{is_explained_but_for_the_law, remainder};
+use super::remainder::{is_as_good_as_explained, remainder};
 use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
@@ -185,7 +185,7 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
         return Rung::Left;
     }
-    if is_explained_but_for_the_law(bench, &below, &ladder.bare.at) {
+    if is_as_good_as_explained(bench, &below, &ladder.bare.at) {
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };

@@ -140,7 +140,7 @@ fn left_by_parts(best: &Trial) -> f64 {
 
 /// Whether `trial` leaves no more of the gap than its law may, where friction, play or what goes with the load is among its effects, or else next to
 /// nothing of it and little beyond chance: what a further effect would explain of that is how real ones bend, when parts come and go, or an edge or two.
-pub fn is_explained_but_for_the_law(bench: &Bench<'_>, trial: &Trial, bare: &[f64]) -> bool {
+pub fn is_as_good_as_explained(bench: &Bench<'_>, trial: &Trial, bare: &[f64]) -> bool {
     let score = |set: &[Candidate], at: &[f64]| Some(bench.subject.score(&*bench.predict(set, at)?));
     let Some((left, gap)) = score(&trial.set, &trial.at).zip(score(&[], bare)) else { return false };
     let share = misfit(&left) / misfit(&gap).max(1e-9);
@@ -457,13 +457,9 @@ mod tests {
         let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
         let nothing = bench.nominal(&[]);
         let trial = |set: &[Candidate], at: Vec<f64>| bench.trial(set, at).expect("a trial");
-        assert!(is_explained_but_for_the_law(&bench, &trial(&rubs, at(&bench)), &nothing));
-        assert!(!is_explained_but_for_the_law(
-            &bench,
-            &trial(&rubs, [vec![10.0], bench.nominal(&rubs)].concat()),
-            &nothing
-        ));
-        assert!(!is_explained_but_for_the_law(&bench, &trial(&[], nothing.clone()), &nothing));
+        assert!(is_as_good_as_explained(&bench, &trial(&rubs, at(&bench)), &nothing));
+        assert!(!is_as_good_as_explained(&bench, &trial(&rubs, [vec![10.0], bench.nominal(&rubs)].concat()), &nothing));
+        assert!(!is_as_good_as_explained(&bench, &trial(&[], nothing.clone()), &nothing));
     }
 
     /// Beside a force that explains nearly all of a gap, what a sensor rounds away is no gap of its own; more of it is.
@@ -483,7 +479,7 @@ mod tests {
             report_as(&mut subject, &recorded);
             let bench = Bench::new(&subject, Vec::new(), &stop);
             let alone = bench.trial(&set[..1], at[..1].to_vec()).expect("a trial");
-            is_explained_but_for_the_law(&bench, &alone, &[])
+            is_as_good_as_explained(&bench, &alone, &[])
         };
         // A constant that goes on all along shows far beyond chance as soon as it moves what is rounded.
         assert_eq!([0.3, 0.5, 0.55, 3.0].map(&mut is_explained), [true, true, false, false]);
