@@ -314,27 +314,15 @@ fn tell(arguments: &ExamArguments, out: &Path, exam: &Exam) -> Result<(), Failur
 
 /// The rates in lines.
 fn text(exam: &Exam) -> String {
-    let rates = &exam.rates;
-    let all = [
-        ("device right", &rates.device_right),
-        ("single right", &rates.single_right),
-        ("truth in class", &rates.truth_in_class),
-        ("truth named", &rates.truth_named),
-        ("false alarm", &rates.false_alarm),
-        ("outside right", &rates.outside_right),
-        ("outside sure, wrong", &rates.outside_sure_wrong),
-        ("both of two", &rates.both_of_two),
-        ("shrink, of oracle's", &rates.shrink_of_oracle),
-        ("interval cover", &rates.interval_cover),
-        ("calibration error", &rates.ece),
-        ("faint sure, wrong", &rates.faint_sure_wrong),
-    ];
     let percent = |value: f64| format!("{:.1} %", 100.0 * value);
-    let mut text = format!("{:20} {:>8}  {:>17}  {:>5}\n", "rate", "value", "95 %", "cases");
-    for (name, rate) in all {
+    let mut text = format!("{:20} {:>8}  {:>17}  {:>5}  target\n", "rate", "value", "95 %", "cases");
+    for shown in exam.rates.shown() {
+        let exam::Shown { name, rate, .. } = shown;
         let value = rate.value.map_or("–".to_owned(), percent);
         let within = rate.ci95.map_or(String::new(), |[low, high]| format!("{} to {}", percent(low), percent(high)));
-        text.push_str(&format!("{name:20} {value:>8}  {within:>17}  {:>5}\n", rate.n));
+        let line = format!("{name:20} {value:>8}  {within:>17}  {:>5}  {}", rate.n, shown.stands());
+        text.push_str(line.trim_end());
+        text.push('\n');
     }
     for (name, sizes) in [("true classes", &exam.true_classes), ("named classes", &exam.named_classes)] {
         if let Some(median) = sizes.median {

@@ -98,6 +98,9 @@ pub struct Answer {
     /// What kind of device the first effect is on, by the names of the rig: plants give their devices names of their own.
     #[serde(default)]
     pub kind: Option<String>,
+    /// The model that it is diagnosed by: a folder's or a file's path.
+    #[serde(default)]
+    pub model: Option<String>,
 }
 
 impl Answer {

@@ -138,6 +138,7 @@ mod tests {
             class,
             classes: Vec::new(),
             kind: None,
+            model: None,
         }
     }
 

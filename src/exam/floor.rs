@@ -28,10 +28,10 @@ impl Floor {
         let floor: Floor = serde_json::from_str(text)
             .map_err(|error| format!("{error}: expected {{\"NAME\": {{\"at_least\": NUMBER}}}} or at_most"))?;
         let rates = values(&Rates::default());
-        match floor.0.keys().find(|name| !rates.contains_key(*name)) {
+        match floor.0.keys().find(|name| !rates.contains_key(name.as_str())) {
             None => Ok(floor),
             Some(name) => {
-                let known: Vec<&str> = rates.keys().map(String::as_str).collect();
+                let known: Vec<&str> = rates.keys().copied().collect();
                 Err(format!("{name:?} is no rate of an exam: expected one of {}", known.join(", ")))
             }
         }
@@ -42,7 +42,7 @@ impl Floor {
         let rates = values(rates);
         let mut broken = Vec::new();
         for (name, bound) in &self.0 {
-            let Some(rate) = rates.get(name).copied().flatten() else { continue };
+            let Some(rate) = rates.get(name.as_str()).copied().flatten() else { continue };
             if let Some(least) = bound.at_least.filter(|least| rate < *least) {
                 broken.push(format!("{name} is {rate:.3}, less than its floor of {least}"));
             }
@@ -55,10 +55,8 @@ impl Floor {
 }
 
 /// The value of each rate, by its name.
-fn values(rates: &Rates) -> BTreeMap<String, Option<f64>> {
-    let all = serde_json::to_value(rates).unwrap_or_default();
-    let each = all.as_object().into_iter().flatten();
-    each.map(|(name, rate)| (name.clone(), rate["value"].as_f64())).collect()
+fn values(rates: &Rates) -> BTreeMap<&'static str, Option<f64>> {
+    rates.shown().into_iter().map(|shown| (shown.id, shown.rate.value)).collect()
 }
 
 #[cfg(test)]

@@ -19,6 +19,9 @@ pub struct Judged {
     /// The kind of the device of the first of them, where that is not its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<String>,
+    /// The model that it was diagnosed by.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<String>,
     /// What was answered: the verdict, and its causes in words.
     pub verdict: String,
     pub answered: Vec<String>,
@@ -79,6 +82,7 @@ pub fn judge(answer: &Answer, report: &Report, seconds: f64) -> Judged {
         magnitude: answer.magnitude,
         truth: truths.iter().map(|truth| in_words(&truth.device, truth.component.as_deref(), &truth.effect)).collect(),
         kind: answer.kind.clone(),
+        model: answer.model.clone(),
         verdict: report.verdict.name().to_owned(),
         answered: report.cause.iter().map(|c| in_words(&c.device, c.component.as_deref(), &c.effect)).collect(),
         device_right: (!truths.is_empty()).then(|| devices_are_right(truths, report)),

@@ -15,7 +15,8 @@ fn truth(device: &str, effect: &str, place: &str) -> TrueEffect {
 }
 
 fn answer(case: &str, sort: Sort, magnitude: Magnitude, effects: Vec<TrueEffect>) -> Answer {
-    Answer { case: case.to_owned(), sort, magnitude, effects, class: Vec::new(), classes: Vec::new(), kind: None }
+    let (class, classes) = (Vec::new(), Vec::new());
+    Answer { case: case.to_owned(), sort, magnitude, effects, class, classes, kind: None, model: None }
 }
 
 fn report(verdict: Verdict, causes: &[(&str, &str, EffectPlace)]) -> Report {
@@ -204,4 +205,41 @@ fn sealed_answers_are_read_and_what_is_none_is_said_to_be_none() {
     assert_eq!(answers[0].kind, None, "answers that name no kind are read too");
     assert_eq!((seed, answers[0].sort, answers[0].magnitude), (7, Sort::OneOnEachOfTwo, Magnitude::BelowNoise));
     assert!(read_answers(b"{}").expect_err("none").to_string().contains("expected what withheld-plant sealed"));
+}
+
+#[test]
+fn an_exam_is_told_by_magnitude_by_device_by_plant_and_effect_by_effect() {
+    let on = |case: &str, model: &str, effect: &str| Answer {
+        kind: Some("Feed".to_owned()),
+        model: Some(model.to_owned()),
+        ..answer(case, Sort::Single, Magnitude::Clear, vec![truth("Axis7", effect, "mechanics")])
+    };
+    let named = |effect| report(Verdict::Effect, &[("Axis7", effect, EffectPlace::Mechanics)]);
+    let outside = Answer { sort: Sort::Outside, ..on("4", "models/rig-toleranced", "x-cogs") };
+    let judged = vec![
+        judge(&on("1", "models/rig-toleranced", "coulomb-friction"), &named("coulomb-friction"), 1.0),
+        judge(&on("2", "models/rig-toleranced", "coulomb-friction"), &named("viscous-friction"), 3.0),
+        judge(&on("3", "plant.xml", "viscous-friction"), &report(Verdict::Partial, &[]), 5.0),
+        judge(&outside, &report(Verdict::Unknown, &[]), 2.0),
+    ];
+    let exam = Exam::new(7, "2026-01-31".to_owned(), judged, BTreeMap::new());
+    let value = |groups: &Groups, group: &str, rate: &str| groups[group].get(rate).and_then(|rate| rate.value);
+    assert_eq!(value(&exam.by_device, "Feed", "single_right"), Some(1.0 / 3.0));
+    assert_eq!(value(&exam.by_magnitude, "clear", "outside_right"), Some(1.0));
+    assert_eq!(value(&exam.by_effect, "coulomb-friction", "single_right"), Some(0.5));
+    assert_eq!(value(&exam.by_effect, "x-cogs", "single_right"), None);
+    assert_eq!(value(&exam.by_effect, "x-cogs", "outside_right"), Some(1.0));
+    assert_eq!(value(&exam.by_plant, "drawn at random", "single_right"), Some(0.0));
+    assert_eq!(exam.seconds["rig-toleranced"].value, Some(2.0));
+    // Both answers weigh 0.9; one of the two is right.
+    let [bin] = exam.calibration.as_slice() else { panic!("{:?}", exam.calibration) };
+    assert_eq!((bin.right.n, bin.right.value), (2, Some(0.5)));
+    let html = page(&exam);
+    let matrix = &html[html.find("Confusion matrix").expect("a matrix")..];
+    for cell in
+        ["<span>right</span>", "<span>viscous-friction</span>", "<span>partial</span>", "<td class=\"met\">1</td>"]
+    {
+        assert!(matrix.contains(cell), "{cell}: {matrix}");
+    }
+    assert!(html.contains("share of right answers over their weight") && html.contains("at least 95 %"), "{html}");
 }

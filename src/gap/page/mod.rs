@@ -9,7 +9,7 @@ mod bars;
 mod evidence;
 mod gather;
 mod map;
-mod plot;
+pub(crate) mod plot;
 mod series;
 mod strip;
 mod tables;

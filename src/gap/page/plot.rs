@@ -8,28 +8,28 @@ use plotters::prelude::*;
 use crate::gap::report::number::significant;
 
 /// A sheet to draw on.
-pub(super) type Sheet<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub(super) type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
-pub(super) type Chart<'a, 'b> = ChartContext<
+pub(crate) type Sheet<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+pub(crate) type Chart<'a, 'b> = ChartContext<
     'a,
     SVGBackend<'b>,
     Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
 >;
 
 /// Units of the drawing to a pixel of the page: plotters places everything at whole units, and lines would show steps.
-pub(super) const FINE: u32 = 4;
+pub(crate) const FINE: u32 = 4;
 
 // Colours of Okabe and Ito, which are told apart with any colour vision, and in grey by their darkness. Lines differ by
 // their dashes, too.
-pub(super) const MEASURED: RGBColor = RGBColor(0, 0, 0);
-pub(super) const NOMINAL: RGBColor = RGBColor(213, 94, 0);
-pub(super) const WITH_EFFECT: RGBColor = RGBColor(0, 114, 178);
-pub(super) const SHARE: RGBColor = RGBColor(230, 159, 0);
-pub(super) const QUIET: RGBColor = RGBColor(120, 120, 120);
-pub(super) const FAINT: RGBColor = RGBColor(225, 225, 225);
+pub(crate) const MEASURED: RGBColor = RGBColor(0, 0, 0);
+pub(crate) const NOMINAL: RGBColor = RGBColor(213, 94, 0);
+pub(crate) const WITH_EFFECT: RGBColor = RGBColor(0, 114, 178);
+pub(crate) const SHARE: RGBColor = RGBColor(230, 159, 0);
+pub(crate) const QUIET: RGBColor = RGBColor(120, 120, 120);
+pub(crate) const FAINT: RGBColor = RGBColor(225, 225, 225);
 
 /// Draws a sheet of so many pixels.
-pub(super) fn draw(width: u32, height: u32, title: &str, paint: impl FnOnce(&Sheet<'_>) -> Drawn) -> String {
+pub(crate) fn draw(width: u32, height: u32, title: &str, paint: impl FnOnce(&Sheet<'_>) -> Drawn) -> String {
     let mut svg = String::new();
     {
         let sheet = SVGBackend::with_string(&mut svg, (width * FINE, height * FINE)).into_drawing_area();
@@ -44,22 +44,22 @@ pub(super) fn draw(width: u32, height: u32, title: &str, paint: impl FnOnce(&She
 }
 
 /// Pixels of the page as units of the drawing.
-pub(super) fn px(pixels: i32) -> i32 {
+pub(crate) fn px(pixels: i32) -> i32 {
     pixels * FINE as i32
 }
 
 /// The page's type in so many pixels.
-pub(super) fn font(pixels: u32, colour: &RGBColor) -> TextStyle<'static> {
+pub(crate) fn font(pixels: u32, colour: &RGBColor) -> TextStyle<'static> {
     ("sans-serif", pixels * FINE).into_font().color(colour)
 }
 
 /// A line of a style, so many tenths of a pixel wide.
-pub(super) fn stroke(colour: RGBColor, tenths: u32) -> ShapeStyle {
+pub(crate) fn stroke(colour: RGBColor, tenths: u32) -> ShapeStyle {
     ShapeStyle::from(colour).stroke_width((tenths * FINE).div_ceil(10))
 }
 
 /// The span of finite numbers, a little wider; 0 to 1 where there is none.
-pub(super) fn span_of(numbers: impl Iterator<Item = f64>) -> Range<f64> {
+pub(crate) fn span_of(numbers: impl Iterator<Item = f64>) -> Range<f64> {
     let finite = numbers.filter(|number| number.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     if low > high {
@@ -70,7 +70,7 @@ pub(super) fn span_of(numbers: impl Iterator<Item = f64>) -> Range<f64> {
 }
 
 /// A chart's axes: few lines, numbers with few digits.
-pub(super) fn axes(chart: &mut Chart<'_, '_>, x: Option<&str>, y: &str, rows: usize) -> Drawn {
+pub(crate) fn axes(chart: &mut Chart<'_, '_>, x: Option<&str>, y: &str, rows: usize) -> Drawn {
     let number = |x: &f64| significant(if x.abs() < 1e-9 { 0.0 } else { *x }, 4);
     let mut mesh = chart.configure_mesh();
     mesh.disable_x_mesh()
@@ -93,7 +93,7 @@ pub(super) fn axes(chart: &mut Chart<'_, '_>, x: Option<&str>, y: &str, rows: us
 
 /// Points of a line, no more than the eye can tell apart in so many pixels: of each column of pixels the first, the least,
 /// the greatest and the last. A gap in the line begins a new one.
-pub(super) fn lines(times: &[f64], values: &[f64], columns: usize) -> Vec<Vec<(f64, f64)>> {
+pub(crate) fn lines(times: &[f64], values: &[f64], columns: usize) -> Vec<Vec<(f64, f64)>> {
     let mut lines: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
     let points: Vec<(f64, f64)> = times.iter().copied().zip(values.iter().copied()).collect();
     let per_column = (points.len() / columns.max(1)).max(1);
