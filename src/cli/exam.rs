@@ -101,7 +101,7 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
     let (seed, answers) = exam::read_answers(&answers).map_err(|error| Failure::of(&error))?;
     ask_oracles(arguments, &out, &answers)?;
     let (judged, failed) = score(&out, &cases, &answers);
-    let exam = Exam::new(seed, today(), judged, failed);
+    let exam = Exam::new(seed, opened_on(&out)?, judged, failed);
     tell(arguments, &out, &exam)?;
     let is_fine = match floor {
         None => exam.failed.is_empty(),
@@ -314,20 +314,18 @@ fn tell(arguments: &ExamArguments, out: &Path, exam: &Exam) -> Result<(), Failur
 
 /// The rates in lines.
 fn text(exam: &Exam) -> String {
-    let percent = |value: f64| format!("{:.1} %", 100.0 * value);
-    let mut text = format!("{:20} {:>8}  {:>17}  {:>5}  target\n", "rate", "value", "95 %", "cases");
+    let mut text = format!("{:20} {:>8}  {:>15}  {:>5}  target\n", "rate", "value", "95 %", "cases");
     for shown in exam.rates.shown() {
         let exam::Shown { name, rate, .. } = shown;
-        let value = rate.value.map_or("–".to_owned(), percent);
-        let within = rate.ci95.map_or(String::new(), |[low, high]| format!("{} to {}", percent(low), percent(high)));
-        let line = format!("{name:20} {value:>8}  {within:>17}  {:>5}  {}", rate.n, shown.stands());
+        let (value, within) = (rate.percent(), rate.within());
+        let line = format!("{name:20} {value:>8}  {within:>15}  {:>5}  {}", rate.n, shown.stands());
         text.push_str(line.trim_end());
         text.push('\n');
     }
     for (name, sizes) in [("true classes", &exam.true_classes), ("named classes", &exam.named_classes)] {
         if let Some(median) = sizes.median {
             let counts: Vec<String> = sizes.counts.iter().map(|(size, cases)| format!("{cases} of {size}")).collect();
-            text.push_str(&format!("{name:20} {median:>8}  {:>17}  {:>5}\n", counts.join(", "), sizes.n));
+            text.push_str(&format!("{name:20} {median:>8}  {:>15}  {:>5}\n", counts.join(", "), sizes.n));
         }
     }
     for (case, why) in &exam.failed {
@@ -336,10 +334,11 @@ fn text(exam: &Exam) -> String {
     text
 }
 
-/// The calendar's day, in UTC.
-fn today() -> String {
-    let seconds = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
-    date_and_time(seconds).split('T').next().unwrap_or_default().to_owned()
+/// The calendar's day, in UTC, on which the answers were opened: that of the reports' manifest, however often they are scored again.
+fn opened_on(out: &Path) -> std::io::Result<String> {
+    let written = std::fs::metadata(out.join(sealed_answers::MANIFEST))?.modified()?;
+    let seconds = written.duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    Ok(date_and_time(seconds).split('T').next().unwrap_or_default().to_owned())
 }
 
 #[cfg(test)]
@@ -353,6 +352,17 @@ mod tests {
     struct Line {
         #[command(flatten)]
         arguments: ExamArguments,
+    }
+
+    /// Scored a day later, an exam has the date of when its answers were opened.
+    #[test]
+    fn an_exams_date_is_that_of_its_manifest() {
+        let folder = tempfile::tempdir().expect("a folder");
+        assert!(opened_on(folder.path()).is_err());
+        let path = folder.path().join(sealed_answers::MANIFEST);
+        let file = std::fs::File::create(&path).expect("a file");
+        file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(1_769_900_000)).expect("a time");
+        assert_eq!(opened_on(folder.path()).expect("a date"), "2026-01-31");
     }
 
     /// An incomplete report is an answer if the case had its time, and is asked for again if someone interrupted it.

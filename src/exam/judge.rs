@@ -140,6 +140,11 @@ impl Judged {
         [Verdict::Unknown, Verdict::Partial].iter().any(|verdict| self.verdict == verdict.name())
     }
 
+    /// How much an answer about one effect weighs with its class, and whether that holds the truth.
+    pub fn weighed(&self) -> Option<(f64, bool)> {
+        Some((self.weight?, self.truth_in_class?))
+    }
+
     /// With what an oracle's report shrank.
     pub fn beside(self, oracle: Option<&Report>) -> Judged {
         let shrink = oracle.and_then(|report| report.shrink.ratio).map(|ratio| 1.0 - ratio);

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use super::answer::{Magnitude, Sort};
 use super::curve;
 use super::judge::Judged;
-use super::rates::{Rate, Rates};
+use super::rates::Rates;
 use super::target::Reached;
 use super::whole::{Exam, Groups, effect_of};
 use crate::xml::escape;
@@ -44,22 +44,13 @@ pub fn page(exam: &Exam) -> String {
     page
 }
 
-fn percent(value: f64) -> String {
-    format!("{:.1} %", 100.0 * value)
-}
-
-/// The bounds of an interval as people write it: `85.9 to 98.2 %`.
-fn within(rate: &Rate) -> String {
-    rate.ci95.map_or(String::new(), |[low, high]| format!("{:.1} to {}", 100.0 * low, percent(high)))
-}
-
 fn rates(exam: &Exam, page: &mut String) {
     page.push_str("<h2>Rates at magnitudes clear and gross</h2>\n<table>\n<tr><th>what</th><th class=\"n\">value</th>");
     page.push_str("<th class=\"n\">95 %</th><th class=\"n\">cases</th><th>target</th><th></th></tr>\n");
     for shown in exam.rates.shown() {
         let reached = shown.target.and_then(|target| target.reached(shown.rate));
         let class = match reached {
-            Some(Reached::Shown) => "met",
+            Some(Reached::Met) => "met",
             Some(Reached::InValue) => "near",
             Some(Reached::Missed) => "missed",
             None => "",
@@ -68,8 +59,8 @@ fn rates(exam: &Exam, page: &mut String) {
             page,
             "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td><td class=\"{class}\">{}</td></tr>",
             escape(shown.words),
-            shown.rate.value.map_or("–".to_owned(), percent),
-            within(shown.rate),
+            shown.rate.percent(),
+            shown.rate.within(),
             shown.rate.n,
             shown.target.map_or(String::new(), |target| target.to_string()),
             reached.map_or("", Reached::words)
@@ -117,8 +108,8 @@ fn calibration(exam: &Exam, page: &mut String) {
             bin.weights[0],
             bin.weights[1],
             bin.weight,
-            bin.right.value.map_or("–".to_owned(), percent),
-            within(&bin.right),
+            bin.right.percent(),
+            bin.right.within(),
             bin.right.n
         );
     }
@@ -141,18 +132,18 @@ fn groups(head: &str, groups: &Groups, is_asked_for: impl Fn(&str) -> bool, page
     for (name, rates) in groups {
         let _ = write!(page, "<tr><td>{}</td>", escape(name));
         for column in &columns {
-            let Some((rate, [low, high])) = rates.get(column.id).and_then(|rate| Some((rate, rate.ci95?))) else {
+            let Some(rate) = rates.get(column.id) else {
                 page.push_str("<td></td>");
                 continue;
             };
             let is_missed = is_asked_for(name) && column.target.is_some_and(|target| target.is_out_of_reach(rate));
+            let within = |[low, high]: [f64; 2]| format!("{:.0} to {:.0}; ", 100.0 * low, 100.0 * high);
             let _ = write!(
                 page,
-                "<td class=\"n{}\">{:.0} %<br><small>{:.0} to {:.0}; {}</small></td>",
+                "<td class=\"n{}\">{:.0} %<br><small>{}{}</small></td>",
                 if is_missed { " missed" } else { "" },
                 100.0 * rate.value.unwrap_or_default(),
-                100.0 * low,
-                100.0 * high,
+                rate.ci95.map_or(String::new(), within),
                 rate.n
             );
         }

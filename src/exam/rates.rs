@@ -33,6 +33,16 @@ impl Rate {
         Rate { value: Some(yes as f64 / n as f64), n, ci95: Some(wilson(yes as f64, n as f64)) }
     }
 
+    /// The share as people write it, `91.3 %`; a dash where there was no case.
+    pub fn percent(&self) -> String {
+        self.value.map_or("–".to_owned(), |value| format!("{:.1} %", 100.0 * value))
+    }
+
+    /// The bounds of its interval likewise: `85.9 to 98.2 %`.
+    pub fn within(&self) -> String {
+        self.ci95.map_or(String::new(), |[low, high]| format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high))
+    }
+
     /// The mean of numbers, with the interval of its standard error.
     pub fn mean(values: impl Iterator<Item = f64>) -> Rate {
         let values: Vec<f64> = values.collect();
@@ -41,14 +51,15 @@ impl Rate {
             return Rate::default();
         }
         let mean = values.iter().sum::<f64>() / n as f64;
-        let spread = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n.max(2) - 1) as f64;
-        let half = 1.96 * (spread / n as f64).sqrt();
-        Rate { value: Some(mean), n, ci95: Some([mean - half, mean + half]) }
+        let spread = |n: usize| values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1) as f64;
+        // One alone says nothing of how others would be.
+        let half = (n > 1).then(|| 1.96 * (spread(n) / n as f64).sqrt());
+        Rate { value: Some(mean), n, ci95: half.map(|half| [mean - half, mean + half]) }
     }
 
-    /// The mean of what is 1 at most: so is its interval.
-    fn up_to_one(self) -> Rate {
-        Rate { ci95: self.ci95.map(|ends| ends.map(|end| end.min(1.0))), ..self }
+    /// The mean of parts of a whole: its interval holds nothing else.
+    fn of_parts(self) -> Rate {
+        Rate { ci95: self.ci95.map(|ends| ends.map(|end| end.clamp(0.0, 1.0))), ..self }
     }
 }
 
@@ -105,7 +116,6 @@ impl Rates {
         let of = |sort: Sort| all().filter(move |one| one.sort == sort);
         let counted = || all().filter(|one| counts(one.magnitude));
         let outside = || of(Sort::Outside).filter(|one| counts(one.magnitude));
-        let weights = || counted().filter_map(|one| Some((one.weight?, one.truth_in_class?)));
         Rates {
             device_right: Rate::share(counted().filter_map(|one| one.device_right)),
             single_right: Rate::share(counted().filter_map(|one| one.single_right)),
@@ -113,12 +123,12 @@ impl Rates {
             outside_right: Rate::share(outside().map(Judged::is_unknown)),
             outside_sure_wrong: Rate::share(outside().map(|one| one.verdict == "effect")),
             both_of_two: Rate::share(counted().filter_map(|one| one.both_right)),
-            shrink_of_oracle: Rate::mean(counted().filter_map(of_oracle)).up_to_one(),
+            shrink_of_oracle: Rate::mean(counted().filter_map(of_oracle)).of_parts(),
             interval_cover: Rate::share(counted().flat_map(|one| {
                 let [inside, all] = one.covered;
                 (0..all).map(move |k| k < inside)
             })),
-            ece: calibration::error(&calibration::curve(weights())),
+            ece: calibration::error(&calibration::curve(counted().filter_map(Judged::weighed))),
             truth_named: Rate::share(counted().filter_map(|one| one.truth_named)),
             truth_in_class: Rate::share(counted().filter_map(|one| one.truth_in_class)),
             faint_sure_wrong: Rate::share(

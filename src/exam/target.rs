@@ -17,7 +17,7 @@ pub enum Target {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
     /// All of its interval lies where the target is: so many cases show it.
-    Shown,
+    Met,
     /// Its value does, and its interval goes further.
     InValue,
     Missed,
@@ -28,13 +28,13 @@ impl Target {
     pub fn reached(self, rate: &Rate) -> Option<Reached> {
         let value = rate.value?;
         let [low, high] = rate.ci95.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let (is_met, is_shown) = match self {
+        let (is_in, is_whole) = match self {
             Target::AtLeast(least) => (value >= least, low >= least),
             Target::AtMost(most) => (value <= most, high <= most),
             Target::Within(least, most) => ((least..=most).contains(&value), low >= least && high <= most),
         };
-        Some(match (is_met, is_shown) {
-            (true, true) => Reached::Shown,
+        Some(match (is_in, is_whole) {
+            (true, true) => Reached::Met,
             (true, false) => Reached::InValue,
             (false, _) => Reached::Missed,
         })
@@ -65,7 +65,7 @@ impl Reached {
     /// The words for it.
     pub const fn words(self) -> &'static str {
         match self {
-            Reached::Shown => "met",
+            Reached::Met => "met",
             Reached::InValue => "met in value alone",
             Reached::Missed => "missed",
         }
@@ -82,15 +82,15 @@ mod tests {
             let rate = Rate::share((0..n).map(|k| k < yes));
             assert_eq!(target.reached(&rate), expected, "{yes} of {n}, {target}");
         };
-        let [shown, in_value, missed] = [Reached::Shown, Reached::InValue, Reached::Missed].map(Some);
+        let [met, in_value, missed] = [Reached::Met, Reached::InValue, Reached::Missed].map(Some);
         // Wilson's intervals: 97.8 to 99.7 % of 395 of 398, 88.6 to 100 % of 30, 95.5 to 98.6 % of 390 of 400.
-        check(Target::AtLeast(0.95), 395, 398, shown);
+        check(Target::AtLeast(0.95), 395, 398, met);
         check(Target::AtLeast(0.95), 30, 30, in_value);
         check(Target::AtLeast(0.95), 28, 30, missed);
-        check(Target::AtMost(0.02), 0, 400, shown);
+        check(Target::AtMost(0.02), 0, 400, met);
         check(Target::AtMost(0.02), 0, 30, in_value);
         check(Target::AtMost(0.02), 1, 30, missed);
-        check(Target::Within(0.90, 0.98), 380, 400, shown);
+        check(Target::Within(0.90, 0.98), 380, 400, met);
         check(Target::Within(0.90, 0.98), 390, 400, in_value);
         check(Target::Within(0.90, 0.98), 400, 400, missed);
         check(Target::AtLeast(0.95), 0, 0, None);

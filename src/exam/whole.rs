@@ -73,7 +73,6 @@ impl Exam {
     pub fn new(seed: u64, date: String, judged: Vec<Judged>, failed: BTreeMap<String, String>) -> Exam {
         let all: Vec<&Judged> = judged.iter().collect();
         let counted: Vec<&Judged> = judged.iter().filter(|one| one.magnitude.counts()).collect();
-        let weights = counted.iter().filter_map(|one| Some((one.weight?, one.truth_in_class?)));
         let mut sizes: Vec<usize> =
             judged.iter().filter(|one| one.truth_in_class == Some(true)).map(|j| j.class_size).collect();
         sizes.sort_unstable();
@@ -85,7 +84,7 @@ impl Exam {
             date,
             cases: judged.len() + failed.keys().filter(|case| judged.iter().all(|one| one.case != **case)).count(),
             rates: Rates::of(&all, |magnitude| magnitude.counts()),
-            calibration: calibration::curve(weights),
+            calibration: calibration::curve(counted.iter().filter_map(|one| one.weighed())),
             by_magnitude: grouped(&all, |one| Some(one.magnitude.name())),
             by_device: grouped(&counted, |one| {
                 let device = one.truth.first()?.split(['.', ':']).next();
