@@ -15,6 +15,8 @@ pub struct Floor {
     pub memory: f64,
     /// By how much the variance of noise and rounding is uncertain because few samples told it, standard deviation as a share of it.
     pub uncertainty: f64,
+    /// Of a sensor that reads in coarse steps, how well it is known when it goes from one to the next, standard deviation, SI; 0 of any other.
+    pub sharpness: f64,
     /// How far an instant may be off, standard deviation, s.
     pub timing: f64,
     /// How far even a good model is off, standard deviation, SI: of a device that is taken up again and again, whose errors
@@ -29,6 +31,8 @@ pub struct Floor {
 pub(super) const FLOOR_UNCERTAINTY: f64 = 0.06;
 /// Of a step, how much of it is taken for noise at least: far less does not show.
 const LEAST_NOISE: f64 = 0.2;
+/// The same of a step that is known to end sharply: nearer than a law that is nearly true is to the truth.
+const SHARPEST: f64 = 0.02;
 /// Of a signal's range, what nothing is claimed about.
 const RESOLUTION: f64 = 1e-6;
 /// From which noise on, in steps, samples differ where nothing moves.
@@ -37,9 +41,15 @@ const SHOWN_NOISE: f64 = 0.1;
 impl Floor {
     /// The standard deviation that a cost is computed with, where the signal changes by `slope` in a second.
     pub fn sigma(&self, slope: f64) -> f64 {
-        let noise = self.noise.max(LEAST_NOISE * self.step);
+        let noise = self.noise.max(self.least_noise());
         let law = self.reach.hypot(self.misfit);
         (noise * noise + (slope * self.timing).powi(2) + law * law).sqrt()
+    }
+
+    /// What is taken for noise at least, SI.
+    fn least_noise(&self) -> f64 {
+        let least = LEAST_NOISE * self.step;
+        if self.sharpness > 0.0 { least.min(self.sharpness.max(SHARPEST * self.step)) } else { least }
     }
 
     /// The root mean square of the difference where nothing is wrong and the signal moves with `slope`, SI.
@@ -77,7 +87,7 @@ impl Floor {
     /// What a sample costs where nothing is wrong. Noise that does not show at rest may be there in motion.
     pub fn costs(&self) -> FloorCosts {
         let sigma = self.sigma(0.0);
-        FloorCosts::new((self.noise / self.step).max(LEAST_NOISE), sigma / self.step)
+        FloorCosts::new(self.noise.max(self.least_noise()) / self.step, sigma / self.step)
     }
 
     /// The floor of a recorded level that was predicted to be `predicted`, sample by sample.
@@ -145,6 +155,18 @@ pub(super) fn step_of(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A tenth of a step off its middle a reading says nothing; beyond the step's end it says the more the better that is known.
+    #[test]
+    fn a_coarse_step_is_as_sharp_as_what_it_is_reported_in() {
+        let soft = Floor { step: 0.05, ..Floor::default() };
+        let sharp = Floor { sharpness: 1e-4, ..soft };
+        let cost = |floor: Floor, off: f64| cost::level(off, 0.0, floor.step, floor.sigma(0.0));
+        assert!(cost(soft, 0.02) > 0.3 && cost(sharp, 0.02) < 1e-3, "{}", cost(soft, 0.02));
+        assert!(cost(soft, 0.03) < 4.0 && cost(sharp, 0.03) > 10.0, "{} {}", cost(soft, 0.03), cost(sharp, 0.03));
+        // One that is known no better than a fifth of its step is as any other.
+        assert_eq!(Floor { sharpness: 0.03, ..soft }.sigma(0.0), soft.sigma(0.0));
+    }
 
     /// A sensor that is stuck reports one value while its model moves: its step is next to nothing.
     #[test]

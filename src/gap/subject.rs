@@ -512,7 +512,8 @@ impl Subject {
                 let is_coarse = is_servo && info.property == "force" && (is_exact || run.timing_s.is_some());
                 let timing = if is_coarse { 2.5 * off } else { off };
                 let (recorded, predicted) = track.evident(values);
-                run.floors[signal] = Floor::of(&track.grid, &recorded, &predicted, timing, info.is_count);
+                let floor = Floor::of(&track.grid, &recorded, &predicted, timing, info.is_count);
+                run.floors[signal] = Floor { sharpness: run.floors[signal].sharpness, ..floor };
                 run.rests[signal] = rests(track, values, run.floors[signal].step);
             }
         }

@@ -382,7 +382,14 @@ fn in_steps(place: usize, study: &Study) -> Option<Chance> {
     let (signal, steps, misfit) = steps::find(place, study)?;
     let mut other = subject.clone();
     steps.take_out(&mut other, &bare.prediction, signal);
-    let (other, bare) = without(other, bare, Some(&bare.prediction))?;
+    other.runs.iter_mut().for_each(|run| run.floors[signal].sharpness = steps.sharpness());
+    let (other, mut bare) = without(other, bare, Some(&bare.prediction))?;
+    if evidence(&other, &bare.prediction) > THRESHOLD {
+        // What was read in coarse steps may have led the nominal parameters to where nothing leads them back from.
+        let anew = Bare::new(&other, &other.predict(&[], &Overrides::none()).ok()?);
+        let is_better = evidence(&other, &anew.prediction) < evidence(&other, &bare.prediction);
+        bare = if is_better { anew } else { bare };
+    }
     let component = Some(subject.signals[signal].property.clone());
     let bounds = vec![steps.bounds()];
     let candidate = candidate("quantisation", EffectPlace::Sensor, component, &["step"], &bounds)?;
@@ -437,6 +444,7 @@ fn candidate(
         fixed: Vec::new(),
         free: free.collect(),
         starts: vec![bounds.iter().map(|bounds| bounds.value).collect()],
+        shown: Vec::new(),
     })
 }
 

@@ -8,13 +8,15 @@
 //!
 //! Whether values lie about the multiples of a step s is asked of the mean of cos 2πy/s over samples that move (the periodogram of a
 //! point process: M. S. Bartlett, J. R. Stat. Soc. B 25, 1963), beside that of what is predicted, which rests at round numbers now
-//! and then.
+//! and then. Noise of half a step behind the sensor hides that, and so does a lattice of nearly the step. But where nothing else is wrong it is known
+//! from the prediction what the sensor should read, and what is left of it goes to and fro as a saw along the way, whose first harmonic is looked for (a
+//! matched filter: G. L. Turin, IRE Transactions on Information Theory 6, 1960).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::gap::cause::Bounds;
 use crate::gap::floor::Floor;
-use crate::gap::locate::THRESHOLD;
+use crate::gap::locate::{THRESHOLD, evidence_of};
 use crate::gap::prediction::{Predicted, Prediction};
 use crate::gap::study::Study;
 use crate::gap::subject::Subject;
@@ -35,6 +37,15 @@ const AS_WELL: f64 = 0.8;
 const FINELY: f64 = 4.0;
 /// How many times the step of the like of it may differ to be the same.
 const ALIKE: f64 = 2.0;
+/// How much coarser than its report's own step one must be that is told by what was to be read, and between which multiples of what rounding makes of the
+/// differences it is looked for: noise may add three times as much.
+const COARSER_THAN_FORESEEN: f64 = 1.25;
+const ABOUT_FORESEEN: [f64; 2] = [0.3, 1.6];
+/// How many times the square of noise and rounding such a step may leave.
+const LEFT: f64 = 2.0;
+/// How much the likelihood of steps may fall, times 2: what it is made of jumps where a sample comes to another step, so that it falls by twice as much
+/// as a smooth one within the same bounds.
+const FALLS: f64 = 7.7;
 /// How many standard deviations of the noise behind the sensor a reading may be off the step that it is predicted to show.
 const GATE: f64 = 4.0;
 
@@ -65,9 +76,67 @@ impl Steps {
             }
         }
         let own = lattice(values)?;
-        let noise = subject.runs.iter().map(|run| run.floors[signal].noise).fold(f64::INFINITY, f64::min);
+        let floors = || subject.runs.iter().map(|run| run.floors[signal]);
+        let noise = floors().map(|floor| floor.noise).fold(f64::INFINITY, f64::min);
+        let share = floors().map(|floor| floor.share()).fold(1.0, f64::min);
         let moving = pairs.iter().flat_map(|(recorded, predicted)| moving(recorded, predicted, 0.5 * COARSER * own));
-        Steps::among(&moving.collect::<Vec<_>>(), own, noise)
+        let moving: Vec<(f64, f64)> = moving.collect();
+        let is_off = || evidence_of(signal, subject, prediction) > THRESHOLD;
+        Steps::among(&moving, own, noise)
+            .or_else(|| if is_off() { Steps::foreseen(&moving, own, (noise, share)) } else { None })
+    }
+
+    /// The steps that what is predicted says should be read, as they are read: from the same pairs; `share`: what share of an independent observation each is.
+    fn foreseen(moving: &[(f64, f64)], own: f64, (noise, share): (f64, f64)) -> Option<Steps> {
+        const FEWEST: usize = 3;
+        const ZOOMS: u32 = 6;
+        const PLACES: i32 = 32;
+        let count = moving.len() as f64;
+        let before: f64 = moving.iter().map(|(y, p)| (y - p).powi(2)).sum();
+        let [least, most] = ABOUT_FORESEEN.map(|share| share * (12.0 * before / count.max(1.0)).sqrt());
+        let least = least.max(COARSER_THAN_FORESEEN * own);
+        let furthest = moving.iter().map(|(_, p)| p.abs()).fold(0.0, f64::max);
+        if least >= most.min(furthest) {
+            return None;
+        }
+        let finely = 1.0 / (FINELY * furthest);
+        let tried = ((1.0 / least - 1.0 / most) / finely).ceil() as usize + 1;
+        let gain = |(place, swings): (usize, &f64)| {
+            let rate = 1.0 / most + place as f64 * finely;
+            let amplitude = 1.0 / (PI * rate);
+            (-2.0 * amplitude * swings - 0.5 * amplitude * amplitude * count, rate)
+        };
+        let swings = swings_at_each(moving, 1.0 / most, finely, tried);
+        let (_, first) = swings.iter().enumerate().map(gain).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let left = |rate: f64| moving.iter().map(|(y, p)| (y - (p * rate).round() / rate).powi(2)).sum::<f64>();
+        let (mut rate, mut apart) = (first, finely / f64::from(PLACES));
+        for _ in 0..ZOOMS {
+            let places = (-PLACES..=PLACES).map(|place| rate + f64::from(place) * apart);
+            let lefts = places.map(|rate| (left(rate), rate));
+            rate = lefts.min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+            apart *= 4.0 / f64::from(PLACES);
+        }
+        let after = left(rate);
+        let is_no_chance = count * share * (before / after).ln() > THRESHOLD + 2.0 * (tried as f64).ln();
+        let is_all = after <= LEFT * count * (noise * noise + own * own / 12.0);
+        let mut multiples: Vec<f64> = moving.iter().map(|(_, p)| (p * rate).round()).collect();
+        multiples.sort_by(f64::total_cmp);
+        multiples.dedup();
+        if !is_no_chance || !is_all || multiples.len() < FEWEST {
+            return None;
+        }
+        let falls = FALLS * after / (count * share);
+        let is_within = |off: &f64| [rate - off, rate + off].iter().any(|rate| left(*rate) <= after + falls);
+        // From afar, so that what lies between two jumps is within as well.
+        let offs = std::iter::successors(Some(2.0 * finely), |off| Some(off / 1.2));
+        let off = offs.take_while(|off| *off > 1e-6 * finely).find(is_within).unwrap_or(1e-6 * finely);
+        let step = 1.0 / rate;
+        Some(Steps { step, deviation: off * step * step / 1.96, own, noise: (after / count).sqrt() })
+    }
+
+    /// How well it is known where one step ends, standard deviation, SI.
+    pub fn sharpness(&self) -> f64 {
+        self.noise.max(self.own / 12.0_f64.sqrt())
     }
 
     /// The same from pairs of what was recorded and predicted in motion, on the lattice `own` of the report, whose noise at rest is
@@ -149,7 +218,7 @@ impl Steps {
 
     /// By how many floors of its report squared a signal is off by its steps.
     fn misfit(&self, subject: &Subject, prediction: &Prediction, signal: usize) -> f64 {
-        let floor = self.noise.max(self.own / 12.0_f64.sqrt());
+        let floor = self.sharpness();
         let of = |(run, predicted): (&crate::gap::Run, &Vec<Predicted>)| match (&run.tracks[signal], &predicted[signal])
         {
             (Some(track), Predicted::Level(predicted)) => {
@@ -259,6 +328,20 @@ fn gathered_at_each(values: &[f64], first: f64, apart: f64, count: usize) -> Vec
     sums.iter().map(|sum| sum / values.len() as f64).collect()
 }
 
+/// How what was recorded goes with a wave along what is predicted, less that, at `count` rates as above: the sums of their products with its sine.
+fn swings_at_each(moving: &[(f64, f64)], first: f64, apart: f64, count: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; count];
+    for (y, p) in moving {
+        let (mut sin, mut cos) = (TAU * first * p).sin_cos();
+        let (turn_sin, turn_cos) = (TAU * apart * p).sin_cos();
+        for sum in &mut sums {
+            *sum += (y - p) * sin;
+            (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
+        }
+    }
+    sums
+}
+
 /// The lattice that values are rounded to: the greatest length of which all differences of neighbours are multiples; `None` where that is what
 /// single precision makes of any values.
 fn lattice(mut values: Vec<f64>) -> Option<f64> {
@@ -320,6 +403,37 @@ mod tests {
             let Bounds { interval: [least, most], .. } = steps.bounds();
             assert!(least < 7.3e-4 && 7.3e-4 < most && most - least < 1e-6, "{steps:?}");
             assert!((steps.own - 1e-4).abs() < 1e-7, "{steps:?}");
+        }
+    }
+
+    fn foreseen(pairs: &[(f64, f64)], noise: f64) -> Option<Steps> {
+        let own = lattice(pairs.iter().map(|pair| f64::from(pair.0 as f32)).collect())?;
+        let (recorded, predicted): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+        Steps::foreseen(&moving(&recorded, &predicted, 0.5 * COARSER * own), own, (noise, 1.0))
+    }
+
+    /// Steps that noise of nearly half of one hides, and steps of one and a half lattices, of which every other reading is on the next lattice point.
+    #[test]
+    fn steps_that_readings_do_not_gather_about_are_found_by_what_should_be_read() {
+        for (step, scatter) in [(7.3e-4, 3.2e-4), (1.61e-4, 0.0)] {
+            let pairs = sweep(0.8, |x, k| rounded(rounded(x, step) + scatter * noise(k), 1e-4));
+            assert_eq!(found(&pairs, scatter), None);
+            let steps = foreseen(&pairs, scatter).unwrap_or_else(|| panic!("no steps of {step}"));
+            let Bounds { interval: [least, most], .. } = steps.bounds();
+            assert!(least < step && step < most && most - least < 2e-2 * step, "{steps:?}");
+        }
+    }
+
+    /// Noise, gains, an offset, a drive that sticks, and a wave along the way whose period is long beside it.
+    #[test]
+    fn what_else_is_off_is_no_foreseen_step() {
+        let stick = |x: f64| if (10.0 * x).rem_euclid(2.0) < 0.7 { 0.1 * (10.0 * x).floor() } else { x };
+        let wave = |x: f64| x - 2e-4 * (TAU * x / 3e-3).sin();
+        let made: [&dyn Fn(f64, usize) -> f64; 5] =
+            [&|x, k| x + 4e-4 * noise(k), &|x, _| 1.01 * x, &|x, _| x - 3e-4, &|x, _| stick(x), &|x, _| wave(x)];
+        for (place, made) in made.into_iter().enumerate() {
+            let noise = if place == 0 { 4e-4 } else { 0.0 };
+            assert_eq!(foreseen(&sweep(0.8, |x, k| rounded(made(x, k), 1e-4)), noise), None, "{place}");
         }
     }
 
