@@ -1,12 +1,14 @@
 //! `stale-hold`: a signal is refreshed only every `time`, and stands in between.
 //!
 //! Source: the sampler with a zero-order hold (K. J. Åström, B. Wittenmark, Computer-Controlled Systems, Prentice Hall 1997,
-//! section 2.3).
+//! section 2.3). A measured quantity that is refreshed more often than it is looked at is looked up on straight lines between those looks, a
+//! millisecond apart.
 
+use super::line::History;
 use super::table::{BASE, time};
 use crate::device::law::SAME_INSTANT_S;
-use crate::device::path::{Moment, Stage};
-use crate::effect::{Build, EffectDescriptor, Fit, SignalClass};
+use crate::device::path::{Moment, STRETCH_S, Stage};
+use crate::effect::{Build, EffectDescriptor, Fit, SignalClass, Site};
 use crate::plant::EffectPlace;
 
 /// Its line in the registry.
@@ -19,9 +21,7 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     fits: &[Fit::Signals(SignalClass::Any)],
     parameters: &[time("time", 0.1, "from one refresh to the next")],
     excited_by: "changes of the signal",
-    build: Build::Stage(|values, site| {
-        Box::new(StaleHold { time: values[0], is_smooth: site.is_smooth(), window: None, entry: 0.0, held: 0.0 })
-    }),
+    build: Build::Stage(|values, site| StaleHold::stage(values[0], site)),
     ..BASE
 };
 
@@ -39,6 +39,18 @@ struct StaleHold {
     /// What stands at the entry.
     entry: f64,
     held: f64,
+    /// What it was before, of a signal whose refreshes nobody waits for.
+    history: Option<History>,
+}
+
+impl StaleHold {
+    fn stage(time: f64, site: &Site) -> Box<dyn Stage> {
+        let is_smooth = site.is_smooth();
+        // A stop at each refresh would have a replay take as many steps as there are.
+        let is_looked_up = is_smooth && (SHORTEST_S..STRETCH_S).contains(&time);
+        let history = is_looked_up.then(|| History::new(true, site.is_whole()));
+        Box::new(StaleHold { time, is_smooth, window: None, entry: 0.0, held: 0.0, history })
+    }
 }
 
 impl Stage for StaleHold {
@@ -47,11 +59,17 @@ impl Stage for StaleHold {
     }
 
     fn stretch(&self) -> f64 {
-        f64::INFINITY
+        if self.history.is_some() { STRETCH_S } else { f64::INFINITY }
+    }
+
+    fn count_finely(&mut self) {
+        if let Some(history) = &mut self.history {
+            history.count_finely();
+        }
     }
 
     fn next_change(&self) -> Option<f64> {
-        let waits = self.time >= SHORTEST_S && (self.is_smooth || self.entry != self.held);
+        let waits = self.history.is_none() && self.time >= SHORTEST_S && (self.is_smooth || self.entry != self.held);
         self.window.filter(|_| waits).map(|window| (window + 1) as f64 * self.time)
     }
 
@@ -60,6 +78,11 @@ impl Stage for StaleHold {
             return value;
         }
         let window = ((moment.now + SAME_INSTANT_S) / self.time) as u64;
+        if let Some(history) = &mut self.history {
+            let refreshed = (window as f64 * self.time).min(moment.now);
+            history.note(moment.now, value);
+            return history.at(refreshed, refreshed);
+        }
         // However often it is looked at in the instant of a refresh, the last look is what stands.
         let is_at_refresh = moment.now <= window as f64 * self.time + SAME_INSTANT_S;
         if is_at_refresh {
@@ -77,6 +100,9 @@ impl Stage for StaleHold {
     fn state(&self, visit: &mut dyn FnMut(f64)) {
         visit(self.entry);
         visit(self.held);
+        if let Some(history) = &self.history {
+            history.state(visit);
+        }
     }
 }
 
@@ -91,6 +117,17 @@ mod tests {
         belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 0.15, &[("velocityActual", 0.1)]);
         belt.check(&[], 0.0499, &[("velocityActual", 0.1)]);
         belt.check(&[], 0.0002, &[("velocityActual", 0.2)]);
+    }
+
+    /// At 1 m/s² a belt has been refreshed last after 449 times 0.4 ms: at 0.1796 m/s; and is looked up there.
+    #[test]
+    fn what_is_refreshed_often_is_what_it_was_at_the_last_refresh() {
+        let hold = spec("report-link", "stale-hold", Some("velocityActual"), &[("time", 4e-4)]);
+        let mut belt = with("StraightConveyor", &[], &[hold]);
+        belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 0.1799, &[]);
+        assert!((belt.report("velocityActual") - 0.1796).abs() < 1e-9, "{}", belt.report("velocityActual"));
+        belt.check(&[], 0.0002, &[]);
+        assert!((belt.report("velocityActual") - 0.18).abs() < 1e-9, "{}", belt.report("velocityActual"));
     }
 
     /// A step after five refreshes that had nothing to show waits for the sixth, and one at a refresh for none.
