@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::bench::{Bench, Trial};
+use super::candidate::Candidate;
 use super::ladder::anew;
 use super::nuisance::{Nuisance, nuisances};
 use crate::gap::fit::{spread, sum_of_squares};
@@ -99,7 +100,7 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, 
     };
     let is_off = |trial: &Trial| Some(evidence(bench.subject, &*bench.predict(&[], &trial.at)?) > THRESHOLD);
     let mut best = match bench.is_rugged() {
-        true => downhill(about(bench, &start))?,
+        true => downhill(about(bench, &[], &start))?,
         false => downhill(start.clone())?,
     };
     let lower = |begin: Vec<f64>, best: Trial| downhill(begin).filter(|again| again.cost < best.cost).unwrap_or(best);
@@ -108,7 +109,7 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, 
     }
     let has_slopes = bench.subject.score(&*bench.predict(&[], &best.at)?).are_levels().contains(&true);
     if search == Search::All || !has_slopes {
-        best = lower(about(bench, &start), best);
+        best = lower(about(bench, &[], &start), best);
     }
     if is_off(&best)? {
         best = lower(nearer(bench, &best.at), best);
@@ -119,21 +120,22 @@ fn fit(bench: &Bench<'_>, start: Vec<f64>, search: Search) -> Option<(Vec<f64>, 
     Some((best.at, best.overrides))
 }
 
-fn cost(bench: &Bench<'_>, at: &[f64]) -> f64 {
-    bench.residuals(&[], at).map_or(f64::INFINITY, |residuals| sum_of_squares(&residuals))
+fn cost(bench: &Bench<'_>, set: &[Candidate], at: &[f64]) -> f64 {
+    bench.residuals(set, at).map_or(f64::INFINITY, |residuals| sum_of_squares(&residuals))
 }
 
-/// The best of each parameter at some standard deviations from nominal, one after the other.
-fn about(bench: &Bench<'_>, start: &[f64]) -> Vec<f64> {
+/// The best of each nominal parameter at some standard deviations from nominal, one after the other, beside a set of candidates that are held.
+pub fn about(bench: &Bench<'_>, set: &[Candidate], start: &[f64]) -> Vec<f64> {
+    let own: usize = set.iter().map(|candidate| candidate.free.len()).sum();
     let mut best = start.to_vec();
-    let mut least = cost(bench, &best);
+    let mut least = cost(bench, set, &best);
     for _ in 0..ROUNDS {
         let before = least;
-        for (place, nuisance) in bench.nuisances.iter().enumerate() {
+        for (place, nuisance) in bench.nuisances_beside(set).enumerate() {
             for strain in TRIED {
                 let mut there = best.clone();
-                there[place] = nuisance.at(strain);
-                let cost = cost(bench, &there);
+                there[own + place] = nuisance.at(strain);
+                let cost = cost(bench, set, &there);
                 if cost < least {
                     (best, least) = (there, cost);
                 }
@@ -151,20 +153,20 @@ fn about(bench: &Bench<'_>, start: &[f64]) -> Vec<f64> {
 fn walked(bench: &Bench<'_>, best: &Trial) -> Vec<f64> {
     const SEED: u64 = 1;
     const RISE: f64 = 3.84;
-    let cost = |at: &[f64]| Some(cost(bench, at));
+    let cost = |at: &[f64]| Some(cost(bench, &[], at));
     spread(&cost, &best.fitted(), &best.ranges, 0, (RISE, SEED)).best.at
 }
 
 /// The best of each parameter moved a little and ever less: of a count that is many off in the end nothing has a slope.
 fn nearer(bench: &Bench<'_>, start: &[f64]) -> Vec<f64> {
     let mut best = start.to_vec();
-    let mut least = cost(bench, &best);
+    let mut least = cost(bench, &[], &best);
     for strain in NEARER {
         for (place, nuisance) in bench.nuisances.iter().enumerate() {
             for by in [-strain, strain] {
                 let mut there = best.clone();
                 there[place] += nuisance.at(by) - nuisance.nominal;
-                let cost = cost(bench, &there);
+                let cost = cost(bench, &[], &there);
                 if cost < least {
                     (best, least) = (there, cost);
                 }

@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::candidate::Candidate;
+use super::candidate::{Candidate, Free};
 use super::latest::Latest;
 use super::nuisance::Nuisance;
+use super::tangent::{orthonormal, take_out};
 use crate::gap::fit::{self, Effort, Fitted, Range, Residuals, sum_of_squares};
 use crate::gap::statistics::inflation;
 use crate::gap::{Overrides, Predicted, Prediction, Run, Score, Subject, WINDOW_S};
-use crate::plant::EffectSpec;
+use crate::plant::{EffectPlace, EffectSpec};
 
 /// The length of a block of time, s: at least some correlation times of a residual.
 pub const BLOCK_S: f64 = 2.0;
@@ -116,7 +117,7 @@ impl<'a> Bench<'a> {
     }
 
     /// The nuisances that a set leaves free: not those that it sets itself.
-    fn nuisances_beside<'b>(&'b self, set: &'b [Candidate]) -> impl Iterator<Item = &'b Nuisance> {
+    pub fn nuisances_beside<'b>(&'b self, set: &'b [Candidate]) -> impl Iterator<Item = &'b Nuisance> {
         let is_set = |nuisance: &&Nuisance| {
             let sets = |candidate: &Candidate| {
                 candidate.is_parameter_error() && candidate.component.as_deref() == Some(nuisance.name)
@@ -214,6 +215,86 @@ impl<'a> Bench<'a> {
             false => fit::search(residuals, starts, &ranges, effort)?,
         };
         self.trial(set, found.at)
+    }
+
+    /// Where the times of a set are that commands are late by, if the machine takes them up in cycles of a task; empty else.
+    pub fn times_of_commands(&self, set: &[Candidate]) -> Vec<usize> {
+        let all = set.iter().flat_map(|candidate| candidate.free.iter().map(|free| (candidate.place, free)));
+        let is_meant = |place: EffectPlace, free: &Free| free.is_time && place == EffectPlace::CommandLink;
+        let times = all.enumerate().filter(|(_, (place, free))| is_meant(*place, free)).map(|(at, _)| at);
+        if self.longest_task() > 0.0 { times.collect() } else { Vec::new() }
+    }
+
+    fn longest_task(&self) -> f64 {
+        self.subject.runs.iter().map(Run::command_tick).fold(0.0, f64::max)
+    }
+
+    /// The same with each time that commands are late by where that costs less, up to two cycles of the machine's task away, all else following it.
+    /// What is taken up in cycles comes a whole one later or not, command by command, so that no slope leads from one to the other.
+    pub fn across_cycles(&self, trial: &Trial) -> Option<Trial> {
+        const FURTHEST: f64 = 2.0;
+        const NEAREST: f64 = 1.0 / 64.0;
+        let times = self.times_of_commands(&trial.set);
+        if times.is_empty() {
+            return None;
+        }
+        let residuals = |at: &[f64]| self.residuals(&trial.set, at);
+        let known = fit::Slopes::of(&residuals, &trial.at, &trial.ranges)?;
+        let others: Vec<usize> = (0..trial.at.len()).filter(|place| !times.contains(place)).collect();
+        let basis = orthonormal(&others.iter().map(|place| known.column(*place)).collect::<Vec<_>>());
+        let left = |mut residuals: Vec<f64>| {
+            take_out(&mut residuals, &basis);
+            fit::sum_of_squares(&residuals)
+        };
+        let (mut at, mut least) = (trial.at.clone(), left(known.here().to_vec()));
+        let (cycle, mut steps) = (self.longest_task(), FURTHEST);
+        while steps >= NEAREST {
+            let mut is_nearer = false;
+            for place in &times {
+                let range = trial.ranges[*place];
+                for time in [steps, -steps].map(|steps| at[*place] + steps * cycle) {
+                    let mut there = at.clone();
+                    there[*place] = time;
+                    let is_within = (range.least..=range.greatest).contains(&time);
+                    let Some(cost) = residuals(&there).filter(|_| is_within).map(left) else { continue };
+                    if cost < least {
+                        (at, least, is_nearer) = (there, cost, true);
+                    }
+                }
+            }
+            if !is_nearer {
+                steps *= 0.5;
+            }
+        }
+        let there = self.trial(&trial.set, at)?;
+        let found = self.following(&there, &times).unwrap_or(there);
+        (found.cost < trial.cost).then_some(found)
+    }
+
+    /// The same with all but these places fitted a little: where no slope leads along a number, none that is taken along with it does.
+    pub fn following(&self, trial: &Trial, held: &[usize]) -> Option<Trial> {
+        const STEPS: u32 = 3;
+        let others: Vec<usize> = (0..trial.at.len()).filter(|place| !held.contains(place)).collect();
+        let with = |own: &[f64]| {
+            let mut all = trial.at.clone();
+            others.iter().zip(own).for_each(|(place, value)| all[*place] = *value);
+            all
+        };
+        let own: Vec<f64> = others.iter().map(|place| trial.at[*place]).collect();
+        if own.is_empty() {
+            return None;
+        }
+        let ranges: Vec<Range> = others.iter().map(|place| trial.ranges[*place]).collect();
+        let residuals = |own: &[f64]| self.residuals(&trial.set, &with(own));
+        let found = fit::least_squares(&residuals, &own, &ranges, STEPS * (own.len() as u32 + 2))?;
+        self.trial(&trial.set, with(&found.at)).filter(|found| found.cost < trial.cost)
+    }
+
+    /// Where the periods of a set are that are known to a part of themselves over the recording.
+    pub fn periods(&self, set: &[Candidate]) -> Vec<usize> {
+        let all =
+            set.iter().flat_map(|candidate| candidate.free.iter().map(|free| (candidate.effect.id, free.is_time)));
+        all.enumerate().filter(|(_, (id, is_time))| *id == "stale-hold" && *is_time).map(|(place, _)| place).collect()
     }
 
     /// What a set costs at `at`.
@@ -324,5 +405,43 @@ impl<'a> Bench<'a> {
             let pairs = one.iter().zip(other).zip(&run.floors);
             pairs.into_iter().any(|((one, other), floor)| one.differs(other, 0.1 * floor.step))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
+    use crate::gap::cause::library::candidates;
+
+    /// An axis whose task takes its commands up every 2 ms, and that gets them 12.3 ms late: 11.6 ms late it would take some up one cycle too soon, and
+    /// 10.3 ms late all.
+    #[test]
+    fn a_time_is_found_across_the_cycles_of_a_task() {
+        let (mut subject, nominal, _) = rubbing_axis();
+        let delays = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "dead-time");
+        let is_meant = |of: &Candidate| of.place == EffectPlace::CommandLink && of.component.is_none();
+        let set = [delays.into_iter().find(is_meant).expect("a delay of all commands")];
+        subject.runs[0].task.every_s = 2e-3;
+        let stop = || false;
+        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&set, &[0.0123]).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let trial = |late: f64| bench.trial(&set, vec![late]).expect("a trial");
+        for from in [0.0103, 0.0116, 0.0149] {
+            let found = bench.across_cycles(&trial(from)).expect("one that costs less");
+            assert!(found.cost < 1e-6 && (found.at[0] - 0.0123).abs() < 2e-3, "{:?} {}", found.at, found.cost);
+        }
+        assert!(bench.across_cycles(&trial(0.0123)).is_none());
+        // A gain that is off moves an axis much as a delay does: it follows, wherever the delay goes.
+        let gain = Nuisance { name: "positionGain", nominal: 25.0, deviation: 0.125, reach: 2.1 };
+        let bench = Bench::new(&subject, vec![gain], &stop);
+        let beside = bench.trial(&set, vec![0.0108, 24.8]).expect("a trial");
+        let found = bench.across_cycles(&beside).expect("one that costs less");
+        assert!(found.cost < 0.05 * beside.cost, "{:?} {} {}", found.at, found.cost, beside.cost);
+        let mut at_once = subject.clone();
+        at_once.runs[0].task.every_s = 0.0;
+        let early = Bench::new(&subject, Vec::new(), &stop).trial(&set, vec![0.0103]).expect("a trial");
+        assert!(Bench::new(&at_once, Vec::new(), &stop).across_cycles(&early).is_none());
     }
 }

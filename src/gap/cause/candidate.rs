@@ -21,6 +21,8 @@ pub struct Candidate {
     pub free: Vec<Free>,
     /// Where to begin: a value for each of the free ones. At least one.
     pub starts: Vec<Vec<f64>>,
+    /// Where the recording itself shows it to be, however little that is from afar; mostly nowhere.
+    pub shown: Vec<Vec<f64>>,
 }
 
 /// A parameter that is to be found.
@@ -105,6 +107,7 @@ mod tests {
                 fixed: vec![("from", 0.0)],
                 free: Vec::new(),
                 starts: vec![Vec::new()],
+                shown: Vec::new(),
             };
             candidate.numbers()
         };

@@ -140,7 +140,8 @@ impl Looks<'_> {
                 if promise.as_ref().is_some_and(|promise| promise.is_kept) {
                     glance.afar = looks.iter().map(|look| look.at.clone()).collect();
                 }
-                looks.first().and_then(|look| self.look(&near, &glance, &look.at)).into_iter().collect()
+                let nearest = looks.first().map(|look| &look.at).into_iter().chain(&glance.candidate.shown);
+                nearest.filter_map(|at| self.look(&near, &glance, at)).collect()
             }
         };
         let promise = promise.unwrap_or_else(|| match self.is_smooth {
@@ -301,7 +302,8 @@ impl Looks<'_> {
         let starts = blur::sharpened(self.bench, self.blurred, of, &glance.afar, &all);
         let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
         let starts = starts.unwrap_or_else(|| vec![glance.at.clone()]);
-        let looks = starts.iter().filter_map(|start| self.look(&near, &glance, start)).collect();
+        let starts = starts.iter().chain(&glance.candidate.shown);
+        let looks = starts.filter_map(|start| self.look(&near, &glance, start)).collect();
         glance.at_the_best_of(looks)
     }
 

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::bench::{Bench, Trial};
+use super::bare::about;
+use super::bench::{BLOCK_S, Bench, Trial};
 use super::candidate::Candidate;
+use super::class::coincidence;
 use super::intervals::{intervals, of_each};
 use super::remainder::{is_as_good_as_explained, remainder};
 use super::rung::{beneath, rung};
@@ -346,15 +348,31 @@ fn choose(bench: &Bench<'_>, weighed: &Bench<'_>, below: &Trial, rivals: &[Trial
 
 /// Refits a trial with everything free, the device weighed by what the trial leaves, until that is one.
 pub fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: bool) -> Option<(Trial, Subject)> {
-    const ROUNDS: u32 = 3;
+    // A delay that is a cycle of a task off leaves much, by which all is weighed until it is found.
+    let rounds = if bench.times_of_commands(&trial.set).is_empty() { 3 } else { 6 };
     let (mut trial, mut subject) = (trial.clone(), weighed.subject.clone());
+    // Among edges that came late by something that is known by itself, nominal parameters went where they made up for it, and no slope leads back.
+    if trial.set.last().is_some_and(|candidate| !candidate.shown.is_empty()) {
+        let at = about(weighed, &trial.set, &trial.at);
+        trial = weighed.trial(&trial.set, at).unwrap_or(trial);
+    }
     // Alone and weighed as it is, everything was free already; what a rugged deviance was fitted to was as well.
     let mut is_fitted = bench.is_rugged() || (is_first && bench.nuisances.is_empty());
-    for _ in 0..ROUNDS {
+    for _ in 0..rounds {
+        let there = bench.with(&subject);
+        let fit = |trial: Trial| {
+            let fitted = there.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len()));
+            fitted.unwrap_or(trial)
+        };
         if !is_fitted {
-            let effort = anew(trial.at.len());
-            let fitted = bench.with(&subject).fit(&trial.set, std::slice::from_ref(&trial.at), effort);
-            trial = fitted.unwrap_or(trial);
+            trial = fit(trial);
+        }
+        let periods = bench.periods(&trial.set);
+        if !periods.is_empty() {
+            trial = there.following(&trial, &periods).unwrap_or(trial);
+        }
+        while let Some(across) = there.across_cycles(&trial).filter(|across| trial.cost - across.cost > 1.0) {
+            trial = fit(across);
         }
         let next = bench.tolerant(&trial)?;
         if next.weighs_as(&subject) {
@@ -400,7 +418,7 @@ pub fn handicap(trial: &Trial, below: usize) -> f64 {
     let new = trial.set.iter().skip(below);
     let further = new.clone().map(|candidate| candidate.free.len().max(1)).sum::<usize>().saturating_sub(1) as f64;
     let is_error = new.into_iter().any(Candidate::is_parameter_error);
-    18.0 * further + if is_error { 18.0 } else { 0.0 }
+    18.0 * further + if is_error { 18.0 } else { 0.0 } + coincidence(trial, below)
 }
 
 /// Whether `next` gains over `below` more than chance, a share worth having, and moves anything at all. The device is weighed by

@@ -182,6 +182,7 @@ impl Library<'_> {
             fixed: Vec::new(),
             free: Vec::new(),
             starts: vec![Vec::new()],
+            shown: Vec::new(),
         };
         starts::of(base, &clues)
     }
@@ -205,6 +206,7 @@ impl Library<'_> {
                         fixed: Vec::new(),
                         free: Vec::new(),
                         starts: vec![Vec::new()],
+                        shown: Vec::new(),
                     });
                 }
             }
@@ -247,6 +249,7 @@ impl Library<'_> {
                     fixed: Vec::new(),
                     free: vec![Free { name: "value", range, is_time }],
                     starts,
+                    shown: Vec::new(),
                 })
             })
             .collect()

@@ -15,6 +15,7 @@ mod library;
 mod nuisance;
 mod refresh;
 mod remainder;
+mod rhythm;
 mod rung;
 mod scales;
 mod scan;

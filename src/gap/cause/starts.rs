@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::candidate::{Candidate, Free};
 use super::scales::Scales;
-use super::{refresh, scan};
+use super::{refresh, rhythm, scan};
 use crate::effect::EffectParameter;
 use crate::gap::fit::Range;
 use crate::gap::schedule::PART_SPACING;
@@ -200,6 +200,12 @@ fn scanned(base: Candidate, clues: &Clues<'_>) -> Vec<Candidate> {
 /// Adds a free parameter: every start so far with each of its own.
 fn add(candidate: &mut Candidate, parameter: &'static EffectParameter, clues: &Clues<'_>) {
     let (range, mut values) = parameter_starts(candidate, parameter, clues);
+    let is_of_edges = candidate.effect.id == "stale-hold" && !clues.subject.has_levels();
+    if is_of_edges && candidate.place == EffectPlace::ReportLink {
+        let shown = rhythm::period(clues);
+        candidate.shown.extend(shown.map(|period| vec![period]));
+        values.extend(shown);
+    }
     // What a slow device has little of may begin below what an effect takes: it would not even be built.
     values.iter_mut().for_each(|value| *value = value.clamp(range.least, range.greatest));
     values.dedup();

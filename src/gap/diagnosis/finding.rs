@@ -314,6 +314,7 @@ mod tests {
             fixed: Vec::new(),
             free: effect.parameters.iter().map(|parameter| free(parameter.name)).collect(),
             starts: Vec::new(),
+            shown: Vec::new(),
         }
     }
 

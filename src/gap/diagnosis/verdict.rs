@@ -301,6 +301,7 @@ mod tests {
                 fixed: Vec::new(),
                 free: Vec::new(),
                 starts: Vec::new(),
+                shown: Vec::new(),
             };
             Site { plant: &plant, subject: study.subject(device).expect(device) }.unit(&candidate, "limit")
         };

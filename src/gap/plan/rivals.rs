@@ -112,7 +112,19 @@ fn candidate(
         }
     }
     let (component, place) = (member.component.clone(), member.place);
-    Ok((Candidate { effect, place, component, texts: texts.clone(), fixed, free, starts: vec![at.clone()] }, at))
+    Ok((
+        Candidate {
+            effect,
+            place,
+            component,
+            texts: texts.clone(),
+            fixed,
+            free,
+            starts: vec![at.clone()],
+            shown: Vec::new(),
+        },
+        at,
+    ))
 }
 
 /// The parameter of an effect, its range, and whether it takes any value in it.
