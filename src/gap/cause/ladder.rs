@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::bare::about;
-use super::bench::{BLOCK_S, Bench, Trial};
+use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::class::coincidence;
 use super::intervals::{intervals, of_each};
