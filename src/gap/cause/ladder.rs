@@ -14,7 +14,7 @@ use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
 use crate::gap::fit::{Effort, Spread, spread, sum_of_squares};
-use crate::gap::statistics::{Draws, least_gain, quantile};
+use crate::gap::statistics::{Draws, least_gain, quantile, standing_out};
 use crate::gap::{FAR_BEYOND, Prediction, Score, Subject, THRESHOLD, evidence, evidence_all_along, gains_with_motion};
 
 /// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
@@ -50,7 +50,7 @@ pub struct Ladder {
     pub bare: Trial,
     /// What its deviance would be where nothing is wrong, and the variance of that.
     pub floor: (f64, f64),
-    /// What an effect takes away of the bare model though nothing about it is off; 0 where something is, or nothing goes with one.
+    /// What is to be had of the bare model at least: of what stands out, or, where nothing is off, of what goes with an effect.
     pub beneath: f64,
     /// The best set; the bare model where no effect is worth having.
     pub best: Trial,
@@ -121,6 +121,8 @@ pub fn climb(
             return Some(ladder);
         }
         ladder.beneath = found;
+    } else {
+        ladder.beneath = evidence(bench.subject, &prediction).max(standing_out(&ladder.bare.blocks));
     }
     ladder.subject = bench.subject.tolerant(&prediction);
     ladder.best = bench.with(&ladder.subject).trial(&[], ladder.bare.at.clone())?;
@@ -191,9 +193,12 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
-    let beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
     // What remembers itself may be what an effect leaves of itself: whether one is worth having is asked of what is left with it.
-    if standing.excess(plain.cost).max(beneath) < least_gain(1, 1) * plain.inflation().min(MOST_INFLATED) {
+    let (beneath, inflation) = match below.set.is_empty() {
+        true => (ladder.beneath, 1.0),
+        false => (0.0, plain.inflation().min(MOST_INFLATED)),
+    };
+    if standing.excess(plain.cost).max(beneath) < least_gain(1, 1) * inflation {
         return Rung::Left;
     }
     let subject = ladder.subject.clone();

@@ -34,7 +34,7 @@ const SHORTEST_WINDOW_S: f64 = 1e-4;
 /// From which value on a limit is taken to limit nothing.
 pub const UNLIMITED: f64 = 1e8;
 /// How fast what hangs on a spring swings where the search for it begins, rad/s, and how fast it may.
-const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0];
+const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0, 896.0, 1792.0];
 const STIFFEST: f64 = 3000.0;
 /// How long vacuum holds where the search for a leak begins, s.
 const HOLDS_S: &[f64] = &[0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0, 5.0, 10.0];
@@ -278,6 +278,15 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
             (range(least, greatest, 1e-4), vec![1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 4e-3, 6e-3, 8e-3, 1e-2])
         }
         ("drift", _) => (range(-unit, unit, 1e-3 * unit), times(&[1e-4, -1e-4, 1e-2, -1e-2], unit)),
+        // Of a short way only the greater part is limited by its speed: a little less of that changes nothing.
+        ("direction-asymmetry", _) => {
+            (range(least, greatest, 0.02), vec![5e-4, -5e-4, 0.02, -0.02, 0.07, -0.07, 0.13, -0.13, 0.2, -0.2])
+        }
+        // A loop about a band is off by its width, whichever that is, and moves on or off at instants that leap with it.
+        ("dead-band", "width") => {
+            let shares = [3e-4, 1e-3, 3e-3, 6e-3, 0.01, 0.015, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4];
+            (range(least, greatest.min(10.0 * unit), 0.01 * unit), times(&shares, unit))
+        }
         ("offset", _) => (range(least, greatest, 0.01 * unit), vec![middle_difference(clues)]),
         _ if parameter.nominal == 1.0 => {
             (range(least, greatest, 0.02), vec![0.999, 1.001, 0.99, 1.01, 0.9, 1.1, 0.6, 1.6])

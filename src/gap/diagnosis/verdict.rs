@@ -11,7 +11,7 @@ use crate::prototype::quantity::si_unit;
 use crate::value::Quantity;
 
 /// A cause stands clear from this weight on.
-const CLEAR: f64 = 0.9;
+const CLEAR: f64 = 0.85;
 /// Rivals lighter than this are not worth a line.
 const LIGHTEST: f64 = 0.005;
 

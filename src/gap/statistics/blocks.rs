@@ -55,6 +55,15 @@ impl Draws {
     }
 }
 
+/// What the blocks that stand out cost beyond what the others do: where a floor is thought too high by a few per cent, a gap of a few moments is
+/// nothing of what all blocks cost above it.
+pub fn standing_out(blocks: &[f64]) -> f64 {
+    /// How many times what most blocks cost is still chance.
+    const CHANCE: f64 = 2.0;
+    let usual = CHANCE * quantile(blocks, 0.5);
+    blocks.iter().map(|block| (block - usual).max(0.0)).sum()
+}
+
 /// The value below which `share` of `values` lie, between neighbours on a straight line; NaN of none.
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let mut sorted = values.to_vec();
@@ -109,6 +118,13 @@ mod tests {
         middle(&mut b);
         let wins = Draws::new(40, 2000, 3).wins(&[&a, &b], &[0.0, 0.0]);
         assert!((wins[0] - 0.5).abs() < 0.05, "{wins:?}");
+    }
+
+    #[test]
+    fn only_what_others_do_not_cost_stands_out() {
+        assert_eq!(standing_out(&[1.0, 1.2, 0.8, 11.0, 1.0, 1.9]), 8.9);
+        assert_eq!(standing_out(&[1.0, 1.2, 0.8, 1.9, 1.0]), 0.0);
+        assert_eq!(standing_out(&[]), 0.0);
     }
 
     #[test]

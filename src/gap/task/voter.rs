@@ -1,7 +1,7 @@
 //! The devices that have a say in what is common to all: what of their levels moves, how that goes with the age of reports and with nominal
 //! parameters that may be off, and what they say together.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::{EXPLAINED, LEAST_DEVICES, LEAST_SQUARE, MOST_AGE_S, NEARER, Task};
 use crate::effect::EffectError;
@@ -50,6 +50,36 @@ pub(super) struct Voter {
     pub columns: DMatrix<f64>,
     /// How far each second of age moves them, in floors.
     pub slopes: DVector<f64>,
+    /// What these are to each other; `None` until they are known.
+    alike: Option<Alike>,
+}
+
+/// The columns' products where all samples weigh the same: hundreds of tasks are tried between two changes of the columns.
+#[derive(Clone)]
+struct Alike {
+    /// Of the nominal parameters, with what is known of them beforehand.
+    own: Cholesky<f64, Dyn>,
+    /// Of these and the age.
+    together: Cholesky<f64, Dyn>,
+    /// By how many standard deviations further off each parameter is for each second of age.
+    by_age: DVector<f64>,
+}
+
+impl Alike {
+    fn of(columns: &DMatrix<f64>, slopes: &DVector<f64>) -> Option<Alike> {
+        let count = columns.ncols();
+        let known = columns.tr_mul(columns) + DMatrix::identity(count, count);
+        let beside = columns.tr_mul(slopes);
+        let mut all = known.clone().resize(count + 1, count + 1, 0.0);
+        for (place, product) in beside.iter().enumerate() {
+            all[(place, count)] = -product;
+            all[(count, place)] = -product;
+        }
+        all[(count, count)] = slopes.norm_squared() + MOST_AGE_S.powi(-2);
+        let own = known.cholesky()?;
+        let by_age = own.solve(&beside);
+        Some(Alike { own, together: all.cholesky()?, by_age })
+    }
 }
 
 /// What the nominal parameters can take of what is left of a device's levels.
@@ -73,6 +103,7 @@ impl Voter {
             strain: DVector::zeros(0),
             columns: DMatrix::zeros(0, 0),
             slopes: DVector::zeros(0),
+            alike: None,
             subject,
         };
         voter.kept = voter.moving(&nominal);
@@ -149,6 +180,7 @@ impl Voter {
             let moved = self.rest(&under.predict(&[], &beside)?);
             self.columns.set_column(column, &((&base - &moved) / NUDGE));
         }
+        self.alike = Alike::of(&self.columns, &self.slopes);
         Ok(())
     }
 
@@ -157,16 +189,21 @@ impl Voter {
     /// and that would be all that anybody hears; of one whose position hangs on a play its force says what its mass is.
     fn taken(&self, rest: &DVector<f64>) -> Taken {
         let count = self.free.len();
+        let Some(alike) = &self.alike else {
+            return Taken { by: DVector::zeros(count), by_age: DVector::zeros(count), is_far: false };
+        };
+        let strain = self.strain.clone().insert_row(count, 0.0);
+        let asked = self.columns.tr_mul(rest) - &self.strain;
+        let mut together = alike.together.solve(&asked.clone().insert_row(count, -self.slopes.dot(rest)));
+        if (&strain + &together).rows(0, count).amax() <= FURTHEST {
+            return Taken { by: alike.own.solve(&asked), by_age: alike.by_age.clone(), is_far: false };
+        }
         let mut weights = DVector::from_element(rest.len(), 1.0);
         let mut all = self.columns.clone().insert_column(count, 0.0);
         all.set_column(count, &-&self.slopes);
-        let strain = self.strain.clone().insert_row(count, 0.0);
         let mut known = DVector::from_element(count + 1, 1.0);
         known[count] = MOST_AGE_S.powi(-2);
-        let mut together = solved((&all, &weights), &known, rest, &strain);
-        let is_far = (&strain + &together).rows(0, count).amax() > FURTHEST;
-        let weighings = if is_far { WEIGHINGS } else { 0 };
-        for _ in 0..weighings {
+        for _ in 0..WEIGHINGS {
             let sums = self.sums(&(rest - &all * &together), &self.slopes);
             let weight = |place: usize| {
                 let of = sums.iter().find(|of| of.place == place);
@@ -180,7 +217,7 @@ impl Voter {
         Taken {
             by: solved(columns, &beforehand, rest, &self.strain),
             by_age: solved(columns, &beforehand, &self.slopes, &DVector::zeros(count)),
-            is_far,
+            is_far: true,
         }
     }
 
@@ -427,6 +464,26 @@ pub(super) fn likeliest_age(each: &[&Moments]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What the columns are to each other, and all of it computed anew from samples that weigh the same, say the same.
+    #[test]
+    fn columns_that_weigh_the_same_are_solved_at_once() {
+        let columns = DMatrix::from_fn(40, 3, |row, column| ((row * (column + 2)) as f64 * 0.37).sin());
+        let slopes = DVector::from_fn(40, |row, _| 300.0 * (row as f64 * 0.21).cos());
+        let rest = DVector::from_fn(40, |row, _| (row as f64 * 0.9).sin() + 0.4);
+        let strain = DVector::from_vec(vec![0.2, -0.1, 0.5]);
+        let alike = Alike::of(&columns, &slopes).expect("columns that are no multiples of each other");
+        let (weights, known) = (DVector::from_element(40, 1.0), DVector::from_element(3, 1.0));
+        let near = |one: &DVector<f64>, other: &DVector<f64>| (one - other).amax() < 1e-9 * (1.0 + other.amax());
+        let asked = columns.tr_mul(&rest) - &strain;
+        assert!(near(&alike.own.solve(&asked), &solved((&columns, &weights), &known, &rest, &strain)));
+        assert!(near(&alike.by_age, &solved((&columns, &weights), &known, &slopes, &DVector::zeros(3))));
+        let mut all = columns.clone().insert_column(3, 0.0);
+        all.set_column(3, &-&slopes);
+        let together = alike.together.solve(&asked.insert_row(3, -slopes.dot(&rest)));
+        let known = DVector::from_vec(vec![1.0, 1.0, 1.0, MOST_AGE_S.powi(-2)]);
+        assert!(near(&together, &solved((&all, &weights), &known, &rest, &strain.insert_row(3, 0.0))));
+    }
 
     fn only(level: Sums) -> Moments {
         Moments { signals: vec![level], strained: Sums::default() }
