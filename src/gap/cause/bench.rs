@@ -420,7 +420,7 @@ mod tests {
     fn a_time_is_found_across_the_cycles_of_a_task() {
         let (mut subject, nominal, _) = rubbing_axis();
         let delays = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "dead-time");
-        let is_meant = |of: &Candidate| of.place == EffectPlace::CommandLink && of.component.is_none();
+        let is_meant = |of: &Candidate| of.place == EffectPlace::CommandLink;
         let set = [delays.into_iter().find(is_meant).expect("a delay of all commands")];
         subject.runs[0].task.every_s = 2e-3;
         let stop = || false;
@@ -430,7 +430,9 @@ mod tests {
         let trial = |late: f64| bench.trial(&set, vec![late]).expect("a trial");
         for from in [0.0103, 0.0116, 0.0149] {
             let found = bench.across_cycles(&trial(from)).expect("one that costs less");
-            assert!(found.cost < 1e-6 && (found.at[0] - 0.0123).abs() < 2e-3, "{:?} {}", found.at, found.cost);
+            // To a 64th of a cycle, within which some command comes a cycle late or not.
+            let is_near = (found.at[0] - 0.0123).abs() < 4e-5 && found.cost < 0.1 * trial(from).cost;
+            assert!(is_near, "{:?} {} {}", found.at, found.cost, trial(from).cost);
         }
         assert!(bench.across_cycles(&trial(0.0123)).is_none());
         // A gain that is off moves an axis much as a delay does: it follows, wherever the delay goes.

@@ -61,22 +61,22 @@ fn period_of(shown: &[Shown]) -> Option<f64> {
     let [shortest, longest] = OF_LATENESS.map(|times| times * quantile(&late, 0.5));
     let (shortest, longest) = (shortest.max(WITHIN_S[0]), longest.min(WITHIN_S[1]));
     let end = shown.iter().map(|edge| edge.within.1).fold(0.0, f64::max);
-    if shortest >= longest {
+    if shortest >= longest || end <= 0.0 {
         return None;
     }
-    let apart = PART / end;
-    let tried = ((1.0 / shortest - 1.0 / longest) / apart) as usize;
-    let explained = |place: usize| {
-        let period = 1.0 / (1.0 / longest + place as f64 * apart);
-        shown.iter().filter(|edge| is_shown(edge, period)).count()
-    };
-    let each: Vec<usize> = (0..tried).map(explained).collect();
+    // By the end a period that lies between two that are tried is off by no more than a report shows.
+    let seen = shown.iter().map(|edge| edge.within.1 - edge.within.0).fold(f64::INFINITY, f64::min);
+    let next = |rate: &f64| Some(rate + PART.min(0.5 * seen * rate) / end);
+    let rates = std::iter::successors(Some(1.0 / longest), next).take_while(|rate| rate * shortest <= 1.0);
+    let rates: Vec<f64> = rates.collect();
+    let explained = |rate: &f64| shown.iter().filter(|edge| is_shown(edge, 1.0 / rate)).count();
+    let each: Vec<usize> = rates.iter().map(explained).collect();
     let most = *each.iter().max()?;
     // The middle of those that explain as many, as a period is in between.
     let first = each.iter().position(|count| *count == most)?;
     let last = first + each[first..].iter().take_while(|count| **count == most).count() - 1;
     let is_told = most as f64 >= LEAST_SHARE * shown.len() as f64;
-    is_told.then(|| 1.0 / (1.0 / longest + 0.5 * (first + last) as f64 * apart))
+    is_told.then(|| 2.0 / (rates[first] + rates[last]))
 }
 
 /// Whether a link that is refreshed so often shows an edge when it was seen.
@@ -118,9 +118,9 @@ mod tests {
 
     #[test]
     fn what_is_late_by_the_same_each_time_shows_no_period_of_its_own() {
-        // But that of its reports, or a part of it.
+        // But one that goes with that of its reports: two turns of it are whole cycles.
         if let Some(found) = period_of(&shown(None)) {
-            let turns = found / 0.01;
+            let turns = 2.0 * found / 0.01;
             assert!((turns - turns.round()).abs() < 0.02, "{found}");
         }
         assert_eq!(period_of(&shown(Some(0.03))[..8]), None);
