@@ -410,6 +410,7 @@ mod tests {
             origins: Vec::new(),
             tolerance: 0.0,
             blind: Vec::new(),
+            anew: Vec::new(),
         };
         assert!(score.cost < score.floor_cost.0 && above_floor(&score) == 0.0);
         let level = score.level.as_ref().expect("a level");

@@ -398,6 +398,7 @@ mod tests {
             origins: Vec::new(),
             tolerance: 0.0,
             blind: Vec::new(),
+            anew: Vec::new(),
         }
     }
 

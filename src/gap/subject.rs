@@ -288,15 +288,9 @@ impl Subject {
 
     /// A counter that a recording finds at some count counts on from there: where it began is no gap.
     fn count_on(&self, run: &Run, predicted: &mut [Predicted]) {
-        const STARTED_FRESH: f64 = 2.0;
         for (signal, _) in self.signals.iter().enumerate().filter(|(_, info)| info.is_count) {
-            let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &mut predicted[signal]) else {
-                continue;
-            };
-            let Some(first) = (0..values.len()).find(|k| !track.is_blind(track.first + k)) else { continue };
-            if first > 0 || track.values.first().is_some_and(|recorded| recorded.abs() > STARTED_FRESH) {
-                let base = count_base(&track.values[first..], &values[first..]);
-                values.iter_mut().for_each(|value| *value += base);
+            if let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &mut predicted[signal]) {
+                track.count_on(values);
             }
         }
     }
@@ -549,20 +543,6 @@ impl Subject {
         let filter = if self.is_filtered(info) { run.task.filter_s } else { 0.0 };
         ahead - run.task.age_s - filter
     }
-}
-
-/// How far a counter was on when a recording began: it shows whole counts, so that each of them says it within one; the middle of
-/// what the first of them all allow.
-fn count_base(recorded: &[f64], predicted: &[f64]) -> f64 {
-    let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (recorded, predicted) in recorded.iter().zip(predicted) {
-        let (low, high) = (least.max(recorded - predicted), most.min(recorded + 1.0 - predicted));
-        if low >= high {
-            break;
-        }
-        (least, most) = (low, high);
-    }
-    0.5 * (least + most)
 }
 
 /// The beam that a signal reports.

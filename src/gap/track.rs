@@ -27,6 +27,8 @@ pub struct Track {
     pub tolerance: f64,
     /// From which instants on (index into the grid) nothing counts, and until which; ascending.
     pub blind: Vec<(usize, usize)>,
+    /// Of a count: from which instants on (index into the grid) it goes on from wherever it is found; ascending.
+    pub anew: Vec<usize>,
 }
 
 /// A change of a recorded state.
@@ -113,6 +115,7 @@ impl Track {
             origins: Vec::new(),
             tolerance: 0.0,
             blind,
+            anew: Vec::new(),
         })
     }
 
@@ -128,6 +131,7 @@ impl Track {
             origins: Vec::new(),
             tolerance: 0.0,
             blind: Vec::new(),
+            anew: Vec::new(),
         }
     }
 
@@ -170,6 +174,26 @@ impl Track {
         track
     }
 
+    /// Lets the values that are predicted of a count go on from where this one is found: at the start of what began elsewhere, and wherever nobody
+    /// knows how far it was on.
+    pub(super) fn count_on(&self, predicted: &mut [f64]) {
+        const STARTED_FRESH: f64 = 2.0;
+        let count = predicted.len();
+        let Some(first) = (0..count).find(|k| !self.is_blind(self.first + k)) else { return };
+        if first > 0 || self.values.first().is_some_and(|recorded| recorded.abs() > STARTED_FRESH) {
+            let base = count_base(&self.values[first..], &predicted[first..]);
+            predicted.iter_mut().for_each(|value| *value += base);
+        }
+        for (at, index) in self.anew.iter().enumerate() {
+            let place = |index: usize| index.saturating_sub(self.first).min(count);
+            let (from, to) = (place(*index), self.anew.get(at + 1).map_or(count, |next| place(*next)));
+            if first < from && from < to {
+                let base = count_base(&self.values[from..to], &predicted[from..to]);
+                predicted[from..].iter_mut().for_each(|value| *value += base);
+            }
+        }
+    }
+
     /// Whether an instant of the grid is no evidence.
     pub fn is_blind(&self, index: usize) -> bool {
         self.blind.iter().any(|(from, to)| (*from..=*to).contains(&index))
@@ -192,5 +216,39 @@ impl Track {
     pub fn span(&self) -> (f64, f64) {
         let at = |index: usize| self.grid.instants.get(index).copied().unwrap_or(0.0);
         (at(self.first), at(self.grid.instants.len().saturating_sub(1)))
+    }
+}
+
+/// How far a counter was on when a recording began: it shows whole counts, so that each of them says it within one; the middle of
+/// what the first of them all allow.
+fn count_base(recorded: &[f64], predicted: &[f64]) -> f64 {
+    let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (recorded, predicted) in recorded.iter().zip(predicted) {
+        let (low, high) = (least.max(recorded - predicted), most.min(recorded + 1.0 - predicted));
+        if low >= high {
+            break;
+        }
+        (least, most) = (low, high);
+    }
+    0.5 * (least + most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A shaft that turned on by a hundred counts while nobody looked, from instant 40 to 49.
+    #[test]
+    fn a_count_goes_on_from_where_it_is_found_behind_what_nobody_saw() {
+        let law: Vec<f64> = (0..100).map(|k| 0.7 * f64::from(k) + 0.4).collect();
+        let turned = |k: usize| if k < 40 { 0.0 } else { 100.0 };
+        let recorded = law.iter().enumerate().map(|(k, law)| (law + turned(k)).floor()).collect();
+        let mut track = Track::of_values(recorded);
+        (track.blind, track.anew) = (vec![(40, 49)], vec![50]);
+        let mut predicted = law.clone();
+        track.count_on(&mut predicted);
+        let off = |k: usize| predicted[k] - track.values[k];
+        assert!((0..40).chain(50..100).all(|k| (-0.2..1.2).contains(&off(k))), "{predicted:?}");
+        assert_eq!(predicted[..50], law[..50]);
     }
 }

@@ -5,10 +5,11 @@
 //! delays is its own; each then comes nearer to its goal by halves. Where the commands so put off leave nothing of the gap, and the
 //! delays scatter as nothing else that delays commands lets them, it is the link that jitters: a dead time has one delay for all, a switch
 //! one for on and one for off, and what delays the longer the further a way is, the longer the rest before it was, or the longer the
-//! machine has run goes with that.
+//! machine has run goes with that. Commands that have not the device for themselves have no say (see [`apart`](super::apart)).
 
 use rayon::prelude::*;
 
+use super::apart::{apart, seen};
 use crate::gap::cause::Bounds;
 use crate::gap::cost::normal;
 use crate::gap::overrides::Overrides;
@@ -18,7 +19,7 @@ use crate::gap::subject::Subject;
 
 /// The longest delay that is looked for, s, and the delays that are tried at first, each by so much longer than the one before: no longer
 /// than half the shortest cycle of reports, which are what shows an edge.
-const MOST_S: f64 = 0.2;
+pub(super) const MOST_S: f64 = 0.2;
 const STEP_S: f64 = 5e-3;
 /// How often the step is halved: to 10 µs, which is as well as an instant is known.
 const HALVINGS: u32 = 9;
@@ -26,6 +27,8 @@ const HALVINGS: u32 = 9;
 const TELLS: f64 = 10.0;
 /// Within so much, in deviance, delays are one.
 const SAME: f64 = 0.5;
+/// How well a delay is known at best, s.
+const SURE_S: f64 = 1e-4;
 /// How many commands must tell their delays.
 const ENOUGH: usize = 10;
 /// How much of what the device costs as it is, and with the best delay for all commands, may be left once each has its own for it to be
@@ -43,12 +46,12 @@ const UNRELATED: f64 = 3.3;
 
 /// A change of a command.
 #[derive(Clone, Copy, Debug)]
-struct Told {
-    run: usize,
+pub(super) struct Told {
+    pub run: usize,
     /// Its place among the run's commands.
     index: usize,
     port: usize,
-    at: f64,
+    pub at: f64,
     /// By how much it changes.
     rise: f64,
     /// How long the one before it had stood, s.
@@ -66,11 +69,21 @@ struct Delay {
     tells: bool,
 }
 
+impl Delay {
+    /// From when to when it may have been, s.
+    fn within(&self) -> [f64; 2] {
+        let half = 0.5 * self.width.max(SURE_S);
+        [(self.by - half).max(0.0), self.by.max(0.0) + half]
+    }
+}
+
 /// The delays of all commands of a device.
 #[derive(Clone)]
 pub(super) struct Late<'a> {
     told: Vec<Told>,
     delays: Vec<Delay>,
+    /// Which of them say when they came.
+    apart: Vec<bool>,
     /// Whether the answer is wanted now: then the delays are not looked for any further.
     is_stopped: &'a (dyn Fn() -> bool + Sync),
 }
@@ -78,20 +91,14 @@ pub(super) struct Late<'a> {
 impl<'a> Late<'a> {
     /// The delays of a device's commands as its recordings show them; `None` where one delay does as well, or none does better.
     pub fn of(subject: &Subject, overrides: &Overrides, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Option<Late<'a>> {
-        let told = told(subject);
-        let mut late = Late { delays: vec![Delay::default(); told.len()], told, is_stopped };
-        if late.told.len() < ENOUGH {
+        let mut late = Late::in_time(subject, overrides, is_stopped)?;
+        if late.apart.iter().filter(|is_apart| **is_apart).count() < ENOUGH {
             return None;
         }
-        let ports = late.ports();
-        // What a port's commands have nothing to do with costs the same with all delays.
         let mut same = late.clone();
-        for port in &ports {
-            late.try_all(subject, overrides, *port)?;
-            same.try_same(subject, overrides, *port)?;
-        }
-        ports.iter().try_for_each(|port| late.come_nearer(subject, overrides, *port))?;
-        let none = Late { delays: vec![Delay::default(); late.told.len()], ..late.clone() };
+        let none = late.clone();
+        late.look(subject, overrides)?;
+        late.ports().iter().try_for_each(|port| same.try_same(subject, overrides, *port))?;
         let [own, same, none] = [&late, &same, &none].map(|late| late.cost(subject, overrides));
         if own? > WORTH_A_LOOK * none?.min(same?) {
             return None;
@@ -100,12 +107,48 @@ impl<'a> Late<'a> {
         Some(late)
     }
 
+    /// The same of a device whose commands are known to come late.
+    pub fn known(
+        subject: &Subject,
+        overrides: &Overrides,
+        is_stopped: &'a (dyn Fn() -> bool + Sync),
+    ) -> Option<Late<'a>> {
+        let mut late = Late::in_time(subject, overrides, is_stopped)?;
+        late.look(subject, overrides)?;
+        late.again(subject, overrides)?;
+        Some(late)
+    }
+
+    /// All of a device's commands when they were given.
+    fn in_time(
+        subject: &Subject,
+        overrides: &Overrides,
+        is_stopped: &'a (dyn Fn() -> bool + Sync),
+    ) -> Option<Late<'a>> {
+        let told = told(subject);
+        let apart = apart(subject, overrides, &told)?;
+        Some(Late { delays: vec![Delay::default(); told.len()], told, apart, is_stopped })
+    }
+
+    /// Looks for the delay of each command.
+    fn look(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
+        let ports = self.ports();
+        // What a port's commands have nothing to do with costs the same with all delays.
+        ports.iter().try_for_each(|port| self.try_all(subject, overrides, *port))?;
+        self.nearer(subject, overrides)
+    }
+
     /// Looks for the delays anew from where they are, beside these nominal parameters.
     pub fn again(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
         let ports = self.ports();
         let mut looks = ports.iter().cycle().take(LOOKS * ports.len());
         looks.try_for_each(|port| self.look_again(subject, overrides, *port))?;
-        ports.iter().try_for_each(|port| self.come_nearer(subject, overrides, *port))
+        self.nearer(subject, overrides)
+    }
+
+    /// Moves the delays on from where they are, beside these nominal parameters.
+    pub fn nearer(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
+        self.ports().iter().try_for_each(|port| self.come_nearer(subject, overrides, *port))
     }
 
     fn ports(&self) -> Vec<usize> {
@@ -115,16 +158,28 @@ impl<'a> Late<'a> {
         ports
     }
 
-    /// The same device with its commands when they came.
+    /// The same device with its commands when they came, as far as they say that.
     pub fn put_off(&self, subject: &Subject) -> Subject {
-        put_off(subject, &self.told, |at| self.delays[at].by)
+        put_off(&seen(subject, &self.told, &self.apart), &self.told, |at| self.delays[at].by)
+    }
+
+    /// A device as far as its commands say when they came.
+    pub fn seen(subject: &Subject, overrides: &Overrides) -> Option<Subject> {
+        let told = told(subject);
+        Some(seen(subject, &told, &apart(subject, overrides, &told)?))
     }
 
     /// The deviation of the normal distribution whose absolute values the delays are, s, with its interval of 95 %; `None` where they
     /// are few, short, or go with something.
     pub fn sigma(&self) -> Option<Bounds> {
-        let telling: Vec<(Told, Delay)> =
-            self.told.iter().copied().zip(self.delays.iter().copied()).filter(|(_, delay)| delay.tells).collect();
+        // Of two that are given at once the later one starts the device, and the other may have come any time before.
+        let is_alone =
+            |told: &Told| self.told.iter().filter(|other| (other.run, other.at) == (told.run, told.at)).count() == 1;
+        let each = self.told.iter().copied().zip(self.delays.iter().copied()).zip(&self.apart);
+        let telling: Vec<(Told, Delay)> = each
+            .filter(|((told, delay), is_apart)| delay.tells && **is_apart && is_alone(told))
+            .map(|(each, _)| each)
+            .collect();
         jitter(&telling)
     }
 
@@ -263,7 +318,7 @@ fn best(along: &[f64]) -> (Delay, f64) {
 }
 
 /// The changes of all commands.
-fn told(subject: &Subject) -> Vec<Told> {
+pub(super) fn told(subject: &Subject) -> Vec<Told> {
     let mut all = Vec::new();
     for (run, of) in subject.runs.iter().enumerate() {
         let mut last: Vec<(usize, f64, f64)> = Vec::new();
@@ -285,7 +340,7 @@ fn told(subject: &Subject) -> Vec<Told> {
 }
 
 /// A device whose commands came later; of one port in the order in which they were given.
-fn put_off(subject: &Subject, told: &[Told], by: impl Fn(usize) -> f64) -> Subject {
+pub(super) fn put_off(subject: &Subject, told: &[Told], by: impl Fn(usize) -> f64) -> Subject {
     let mut late = subject.clone();
     for (at, command) in told.iter().enumerate() {
         let (_, stamped) = &mut late.runs[command.run].commands[command.index];
@@ -308,7 +363,7 @@ fn put_off(subject: &Subject, told: &[Told], by: impl Fn(usize) -> f64) -> Subje
 }
 
 /// Lets counters begin at each of `starts` with what was recorded: what one command made of a count stays for ever after.
-fn count_anew(subject: &Subject, prediction: &mut Prediction, starts: &[(usize, f64)]) {
+pub(super) fn count_anew(subject: &Subject, prediction: &mut Prediction, starts: &[(usize, f64)]) {
     for (at, (run, predicted)) in subject.runs.iter().zip(&mut prediction.runs).enumerate() {
         for (signal, _) in subject.signals.iter().enumerate().filter(|(_, info)| info.is_count) {
             let (Some(track), Predicted::Level(values)) = (&run.tracks[signal], &mut predicted[signal]) else {
@@ -329,14 +384,14 @@ fn count_anew(subject: &Subject, prediction: &mut Prediction, starts: &[(usize, 
 }
 
 /// The deviation of delays that scatter by themselves, s.
-///
-/// Source: the interval of a normal distribution's deviation by χ², with the quantiles of E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci.
-/// 17 (1931).
 fn jitter(telling: &[(Told, Delay)]) -> Option<Bounds> {
-    let count = telling.len();
-    let n = count as f64;
-    let square = telling.iter().map(|(_, delay)| delay.by.powi(2) - delay.width.powi(2) / 12.0).sum::<f64>() / n;
-    if count < ENOUGH || square <= LONGER_THAN_A_TASK_S.powi(2) {
+    let n = telling.len() as f64;
+    if telling.len() < ENOUGH {
+        return None;
+    }
+    let within: Vec<[f64; 2]> = telling.iter().map(|(_, delay)| delay.within()).collect();
+    let bounds = likeliest(&within);
+    if bounds.value <= LONGER_THAN_A_TASK_S {
         return None;
     }
     let rising = |told: &Told| told.rise > 0.0;
@@ -356,27 +411,81 @@ fn jitter(telling: &[(Told, Delay)]) -> Option<Bounds> {
         || goes_with(&|told| f64::from(u8::from(rising(told))))
         || goes_with(&|told| told.stood)
         || goes_with(&|told| told.at);
-    if is_bound || !is_scattered(true) || !is_scattered(false) || !is_drawn(delays, square.sqrt()) {
+    if is_bound || !is_scattered(true) || !is_scattered(false) || !is_drawn(&within, bounds.value) {
         return None;
     }
-    let quantile = |z: f64| (1.0 - 2.0 / (9.0 * n) + z * (2.0 / (9.0 * n)).sqrt()).powi(3);
-    let bound = |z: f64| (square / quantile(z)).sqrt();
-    Some(Bounds { value: square.sqrt(), interval: [bound(1.96), bound(-1.96)], is_identifiable: true })
+    Some(bounds)
 }
 
-/// Whether delays may be the absolute values of a normal distribution of `sigma`, and not one delay for some commands and none for others.
+/// The deviation of the normal distribution among whose absolute values intervals are the likeliest, s, with what is as likely but for what a
+/// chance of 5 % makes.
+///
+/// Source: the likelihood of observations that are known to within intervals, and its ratio (J. F. Lawless, Statistical Models and Methods for Lifetime
+/// Data, Wiley 2003, section 2.2).
+fn likeliest(within: &[[f64; 2]]) -> Bounds {
+    const RISE: f64 = 3.84;
+    const UNLIKELY: f64 = 1e-12;
+    let below = |at: f64, sigma: f64| 2.0 * normal(at / sigma) - 1.0;
+    let deviance = |log: f64| -> f64 {
+        let of = |[from, to]: &[f64; 2]| below(*to, log.exp()) - below(*from, log.exp());
+        within.iter().map(|within| -2.0 * of(within).max(UNLIKELY).ln()).sum()
+    };
+    let [mut low, mut high] = [SURE_S, 1.0].map(f64::ln);
+    let ends = [low, high];
+    for _ in 0..100 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        (low, high) = if deviance(a) < deviance(b) { (low, b) } else { (a, high) };
+    }
+    let best = 0.5 * (low + high);
+    let least = deviance(best);
+    let end = |mut far: f64| {
+        let mut near = best;
+        for _ in 0..60 {
+            let middle = 0.5 * (near + far);
+            if deviance(middle) < least + RISE { near = middle } else { far = middle }
+        }
+        near.exp()
+    };
+    Bounds { value: best.exp(), interval: ends.map(end), is_identifiable: true }
+}
+
+/// Whether delays may be the absolute values of a normal distribution of `sigma`, and not one delay for some commands and none for others. One
+/// that is known to within an interval is anywhere in it, the next elsewhere.
 ///
 /// Source: the test of Kolmogorov and Smirnov with its limit at 1 % error for many (N. V. Smirnov, Ann. Math. Statist. 19, 1948); that the
 /// deviation is found of the same delays makes it err less often.
-fn is_drawn(mut delays: Vec<f64>, sigma: f64) -> bool {
+fn is_drawn(within: &[[f64; 2]], sigma: f64) -> bool {
     const LIMIT: f64 = 1.63;
-    delays.sort_by(f64::total_cmp);
-    let n = delays.len() as f64;
-    let off = |(k, by): (usize, &f64)| {
-        let below = 2.0 * normal(by / sigma) - 1.0;
-        (below - k as f64 / n).abs().max((below - (k + 1) as f64 / n).abs())
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    let below = |at: f64| 2.0 * normal(at / sigma) - 1.0;
+    let share = |(k, [from, to]): (usize, &[f64; 2])| {
+        let there = (GOLDEN * k as f64).fract();
+        below(*from) + there * (below(*to) - below(*from))
     };
-    delays.iter().enumerate().map(off).fold(0.0, f64::max) * n.sqrt() <= LIMIT
+    let mut shares: Vec<f64> = within.iter().enumerate().map(share).collect();
+    shares.sort_by(f64::total_cmp);
+    let n = shares.len() as f64;
+    let off = |(k, share): (usize, &f64)| (share - k as f64 / n).abs().max((share - (k + 1) as f64 / n).abs());
+    shares.iter().enumerate().map(off).fold(0.0, f64::max) * n.sqrt() <= LIMIT
+}
+
+/// The quantiles of the half normal distribution, 40 in no order.
+#[cfg(test)]
+fn scattered(k: usize) -> f64 {
+    let share = (((k * 17) % 40) as f64 + 0.5) / 40.0;
+    let (mut low, mut high) = (0.0, 8.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let below = 2.0 * normal(middle) - 1.0;
+        (low, high) = if below < share { (middle, high) } else { (low, middle) };
+    }
+    low
+}
+
+/// A device whose commands are late by delays of a deviation, s.
+#[cfg(test)]
+pub(super) fn jittered(subject: &Subject, sigma: f64) -> Subject {
+    put_off(subject, &told(subject), |at| sigma * scattered(at))
 }
 
 #[cfg(test)]
@@ -394,25 +503,31 @@ mod tests {
         (0..40).map(of).collect()
     }
 
-    /// The quantiles of the half normal distribution of 10 ms, in no order.
+    /// Delays of a deviation of 10 ms.
     fn drawn(k: usize) -> f64 {
-        let share = (((k * 17) % 40) as f64 + 0.5) / 40.0;
-        let (mut low, mut high) = (0.0, 8.0);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            let below = 2.0 * normal(middle) - 1.0;
-            (low, high) = if below < share { (middle, high) } else { (low, middle) };
-        }
-        0.01 * low
+        0.01 * scattered(k)
     }
 
     #[test]
     fn delays_that_scatter_tell_their_deviation() {
         let Bounds { value, interval: [least, most], .. } = jitter(&delayed(|k, _| drawn(k))).expect("jitter");
         assert!((value / 0.01 - 1.0).abs() < 0.05, "{value}");
-        // χ² of 40: 24.43 and 59.34.
-        assert!((least / value - (40.0_f64 / 59.34).sqrt()).abs() < 1e-3, "{least}");
-        assert!((most / value - (40.0_f64 / 24.43).sqrt()).abs() < 1e-3, "{most}");
+        // The deviance of 40 absolute values of a normal distribution whose deviation is r times theirs.
+        let rise = |r: f64| 40.0 * (2.0 * r.ln() + 1.0 / (r * r) - 1.0);
+        assert!(
+            (rise(least / value) - 3.84).abs() < 0.05 && (rise(most / value) - 3.84).abs() < 0.05,
+            "{least} {most}"
+        );
+    }
+
+    /// A flag that is looked at every 20 ms.
+    #[test]
+    fn delays_that_are_known_to_within_a_cycle_tell_their_deviation() {
+        let seen = |k: usize| 0.02 * ((drawn(k) + 5e-4 * (k % 40) as f64) / 0.02).floor();
+        let mut delays = delayed(|k, _| (seen(k) + 0.01 - 5e-4 * (k % 40) as f64).max(0.0));
+        delays.iter_mut().for_each(|(_, delay)| delay.width = 0.02);
+        let Bounds { value, interval: [least, most], .. } = jitter(&delays).expect("jitter");
+        assert!((value / 0.01 - 1.0).abs() < 0.3 && least < 0.01 && 0.01 < most, "{value} {least} {most}");
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! A sensor that reads in steps draws nothing, but no slope leads to
 //! them either: they are read off in the same way, and the floor is theirs then.
 
+mod apart;
 mod itself;
 mod late;
 mod read;
@@ -71,6 +72,9 @@ impl Chance {
 
     /// Another recording of the device as it would be judged without the effect.
     pub fn judged_without(&self, subject: &Subject) -> Option<Subject> {
+        if matches!(self.drawn, Drawn::Late) {
+            return Late::seen(subject, &self.bare.overrides);
+        }
         let Drawn::In(steps) = self.drawn else { return None };
         let mut other = subject.clone();
         for run in &mut other.runs {
@@ -85,7 +89,7 @@ impl Chance {
         let prediction = subject.predict(specs, overrides).ok()?;
         let mut other = subject.clone();
         if matches!(self.drawn, Drawn::Late) {
-            return Some(Late::of(subject, overrides, &|| false)?.put_off(subject));
+            return Some(Late::known(subject, overrides, &|| false)?.put_off(subject));
         }
         if let Drawn::ByItself(law) = self.drawn {
             Readings::by_themselves(subject, &prediction, law).take_out_of_all(&mut other);
@@ -147,6 +151,9 @@ const MOST_LEFT: f64 = 0.05;
 
 /// How often what was drawn and the nominal parameters are found anew, each beside the other.
 const ROUNDS: usize = 3;
+
+/// How often delays of commands and nominal parameters are then moved on from where they are.
+const NEARER: usize = 6;
 
 /// Looks for effects that draw in what `bare` leaves of the device at `place` of the study. `is_asked` says of an effect's id whether it is
 /// looked for, `is_stopped` whether the answer is wanted now.
@@ -351,11 +358,15 @@ fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> b
     };
     let (mut other, mut bare) = anew(&late, bare)?;
     // What commands that came late had made of the nominal parameters is undone by and by.
-    for _ in 0..ROUNDS {
-        if evidence(&other, &bare.prediction) <= THRESHOLD {
+    for round in 0..ROUNDS + NEARER {
+        let left = evidence(&other, &bare.prediction);
+        if left <= THRESHOLD || round >= ROUNDS && left > MOST_LEFT * before {
             break;
         }
-        late.again(subject, &bare.overrides)?;
+        match round < ROUNDS {
+            true => late.again(subject, &bare.overrides)?,
+            false => late.nearer(subject, &bare.overrides)?,
+        }
         (other, bare) = anew(&late, &bare)?;
     }
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
@@ -516,6 +527,25 @@ mod tests {
         }
         let (study, place) = with_a_loose_contact(usize::MAX, true);
         assert_eq!(found(&study, place), None);
+    }
+
+    /// Every tenth of a second for a while, and every second or two at other times.
+    #[test]
+    fn commands_that_jitter_are_read_where_they_are_apart() {
+        let (mut study, place) = motor(|_, _, _, stands| stands);
+        let (subject, bare) = (&study.subjects[place], &study.bare[place]);
+        let late = late::jittered(subject, 0.03).predict(&[], &bare.overrides).expect("a motion");
+        let subject = &mut study.subjects[place];
+        for (signal, info) in subject.signals.iter().enumerate() {
+            let levels = (&mut subject.runs[0].tracks[signal], &bare.prediction.runs[0][signal], &late.runs[0][signal]);
+            let (Some(track), Predicted::Level(in_time), Predicted::Level(late)) = levels else { continue };
+            for (value, (in_time, late)) in track.values.iter_mut().zip(in_time.iter().zip(late)) {
+                *value = if info.is_count { late.floor() } else { *value - in_time + late };
+            }
+        }
+        let chance = find(place, &study, &|id| id == "sampling-jitter", &|| false).expect("jitter");
+        let [least, most] = chance.bounds[0].interval;
+        assert!(least < 0.03 && 0.03 < most, "{:?}", chance.bounds);
     }
 
     #[test]
