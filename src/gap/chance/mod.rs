@@ -14,6 +14,7 @@ mod late;
 mod read;
 mod scatter;
 mod steps;
+mod tries;
 
 use super::cause::{Bare, Bounds, Candidate, Free, misfit};
 use super::evidence;

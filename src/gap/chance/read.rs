@@ -1,5 +1,6 @@
 //! What was drawn, read off the recording: sample by sample of a level, edge by edge of a flag.
 
+use super::tries::{ALIKE, Tries};
 use crate::gap::prediction::{Predicted, Prediction};
 use crate::gap::statistics::{quantile, wilson};
 use crate::gap::subject::{Subject, beam_of};
@@ -28,11 +29,11 @@ const USUAL: f64 = 0.4;
 /// How many samples must have been drawn, in how many stretches; and how many at most, of those that tell.
 const LEAST_DRAWN: usize = 6;
 const LEAST_STRETCHES: usize = 3;
+/// How many where each was drawn amid a motion that went as predicted before and behind it.
+const LEAST_AMID: usize = 3;
 const MOST_DRAWN: f64 = 0.9;
 /// In which share of pairs of a late edge and one on time the late one may have been due sooner.
 const SOONER: f64 = 0.75;
-/// By how many standard deviations the shares of falls and of rises that are late may differ.
-const ALIKE: f64 = 2.5;
 /// How many edges of a flag that is late by whole cycles.
 const LEAST_EDGES: usize = 3;
 /// Which share of its edges may come a cycle early, by parameters that are not known better.
@@ -46,6 +47,8 @@ pub(super) struct Reading {
     /// How many samples or edges tell, and how many of them were drawn.
     telling: usize,
     drawn: usize,
+    /// How many samples were lost one by one, the ones before and behind telling, and being as predicted.
+    amid: usize,
     /// How long the stretches last at least and at most, s, and the cycle of the grid. Beside one that ends where nobody could see it go on
     /// it may.
     spans: Vec<[f64; 2]>,
@@ -104,14 +107,18 @@ impl Reading {
                         edges.iter().map(|edge| (edge.at, edge.index, edge.to)).collect();
                     match law {
                         Law::Away => all.flag_away(track, *initial, &edges, is_beam(subject, signal))?,
-                        Law::Lost => all.flag_late(track, &edges, sigma, is_known)?,
+                        Law::Lost => all.flag_late(track, *initial, &edges, sigma, is_known)?,
                     }
                 }
                 _ => all.stretches.push(Vec::new()),
             }
         }
         let is_flag = subject.runs.iter().flat_map(|run| &run.tracks[signal]).all(|track| track.values.is_empty());
-        let least = if is_flag { LEAST_EDGES } else { LEAST_DRAWN };
+        let least = match is_flag {
+            true => LEAST_EDGES,
+            false if all.amid == all.drawn => LEAST_AMID,
+            false => LEAST_DRAWN,
+        };
         let stretches: usize = all.stretches.iter().map(Vec::len).sum();
         if is_known {
             return (stretches > 0).then_some(all);
@@ -152,7 +159,9 @@ impl Reading {
         law: Law,
     ) -> Option<()> {
         let instants = &track.grid.instants;
-        let (mut telling, mut sure, mut drawn, mut strange) = (0, 0, Vec::new(), 0);
+        let (mut telling, mut sure, mut drawn, mut strange) = (0, Vec::new(), Vec::new(), 0);
+        // Where a sample tells, and is as predicted.
+        let mut fits = vec![false; track.values.len()];
         // Where a sample would be the same drawn and not.
         let mut hidden = vec![true; track.values.len()];
         let mut last = predicted.first().copied()?;
@@ -178,12 +187,13 @@ impl Reading {
             hidden[k] = from_other <= gate;
             let square = floor.sigma(slope).powi(2) + floor.step.powi(2) / 12.0;
             if from_other <= gate && off.powi(2) - from_other.powi(2) > LIKELIER * square {
-                sure += usize::from(tells);
+                sure.extend(tells.then_some(k));
                 drawn.push(index);
                 self.sizes[0].extend(tells.then_some(predicted.abs()));
                 self.misfit += off.powi(2) / square;
             } else {
                 self.sizes[1].extend(tells.then_some(predicted.abs()));
+                fits[k] = tells && off <= gate;
                 last = *predicted;
             }
         }
@@ -191,7 +201,9 @@ impl Reading {
             return None;
         }
         self.telling += telling;
-        self.drawn += sure;
+        self.drawn += sure.len();
+        let is_amid = |k: &&usize| law == Law::Lost && **k > 0 && fits[**k - 1] && fits.get(**k + 1) == Some(&true);
+        self.amid += sure.iter().filter(is_amid).count();
         let stretches = stretches(&drawn);
         let shows = |index: usize| index < track.first || hidden.get(index - track.first).is_none_or(|hidden| !hidden);
         let longest = |(from, to): (usize, usize)| {
@@ -248,48 +260,63 @@ impl Reading {
         Some(())
     }
 
-    /// A flag some of whose edges are late by whole cycles, and none is early.
+    /// A flag that stands in some cycles as it did in the one before, though it should have changed, and changes where it should not in few.
     /// Where the link is known to lose reports, a few edges need not show that it is by chance.
-    fn flag_late(&mut self, track: &Track, predicted: &[(f64, usize, f64)], sigma: f64, is_known: bool) -> Option<()> {
-        // A pulse of which both edges got lost was never seen: the shortest are.
-        let mut foreseen = predicted.to_vec();
-        let mut late = Vec::new();
-        while foreseen.len() > track.edges.len() + 1 && late.len() * 10 < predicted.len() {
-            let long = |at: &usize| foreseen[at + 1].0 - foreseen[*at].0;
-            let shortest = (0..foreseen.len() - 1).min_by(|a, b| long(a).total_cmp(&long(b)))?;
-            late.push((foreseen[shortest].1, foreseen[shortest + 1].1));
-            foreseen.drain(shortest..shortest + 2);
-        }
-        if track.edges.len() != foreseen.len() {
-            return None;
-        }
-        let mut early = 0;
+    fn flag_late(
+        &mut self,
+        track: &Track,
+        initial: f64,
+        predicted: &[(f64, usize, f64)],
+        sigma: f64,
+        is_known: bool,
+    ) -> Option<()> {
+        let instants = &track.grid.instants;
+        let count = instants.len();
+        let recorded = states(track.initial, track.edges.iter().map(|edge| (edge.index, edge.to)), count);
+        let foreseen = states(initial, predicted.iter().map(|(_, index, to)| (*index, *to)), count);
+        let due = |k: usize| predicted.iter().find(|(_, index, _)| *index == k);
+        // What may be due at the next look, or at the one before.
+        let may_be_later = |k: usize| due(k).is_some_and(|(at, ..)| at + 3.0 * sigma > instants[k]);
+        let may_be_sooner = |k: usize| due(k + 1).is_some_and(|(at, ..)| at - 3.0 * sigma <= instants[k]);
+        let (mut tries, mut since, mut late, mut early) = ([Tries::default(); 2], None, Vec::new(), 0);
         let (mut room, mut room_of_late) = ([Vec::new(), Vec::new()], [Vec::new(), Vec::new()]);
-        for (edge, (at, index, to)) in track.edges.iter().zip(&foreseen) {
-            let due = track.grid.instants.partition_point(|instant| *instant < at + 3.0 * sigma);
-            if edge.to != *to {
-                return None;
+        for k in track.first + 1..count {
+            let last = recorded[k - 1];
+            let (is_due, comes) = (foreseen[k] != last, recorded[k] != last);
+            if track.is_blind(k) {
+                since = None;
+                continue;
             }
-            let soonest = track.grid.instants.partition_point(|instant| *instant < at - 3.0 * sigma);
-            early += usize::from(edge.index < soonest.min(*index));
-            let is_late = edge.index > due.max(*index);
-            let side = usize::from(*to != 0.0);
-            let left = track.grid.instants.get(due).map_or(0.0, |instant| instant - at);
-            if is_late { &mut room_of_late[side] } else { &mut room[side] }.push(left);
-            if is_late {
-                late.push((*index, edge.index));
+            early += usize::from(comes && !is_due && !may_be_sooner(k));
+            if is_due && !comes && may_be_later(k) {
+                continue;
+            }
+            if is_due {
+                tries[usize::from(since.is_some())].count(!comes);
+                if let (None, Some((at, _, to))) = (since, due(k)) {
+                    let room = if comes { &mut room } else { &mut room_of_late };
+                    room[usize::from(*to != 0.0)].push(instants[k] - at);
+                }
+            }
+            match since {
+                None if is_due && !comes => since = Some(k),
+                // It came at last, or what should have come went unseen.
+                Some(from) if comes || !is_due => {
+                    late.push((from, k));
+                    since = None;
+                }
+                _ => {}
             }
         }
-        if early as f64 > EARLY * foreseen.len() as f64 {
+        if early as f64 > EARLY * predicted.len() as f64 {
             return None;
         }
-        if !is_known && !is_by_chance(&room, &room_of_late) {
+        if !is_known && !(is_by_chance(&room, &room_of_late) && tries[0].is_like(&tries[1])) {
             return None;
         }
-        self.telling += predicted.len();
-        self.drawn += late.len();
+        self.telling += tries[0].made() + tries[1].made();
+        self.drawn += tries[0].failed() + tries[1].failed();
         self.misfit += 12.0 * late.len() as f64;
-        late.sort_unstable();
         self.stretches.push(late);
         Some(())
     }
@@ -538,6 +565,48 @@ mod tests {
         assert!(least < 0.2 && most > 0.2 && (share - 0.2).abs() < 0.01, "{least} {share} {most}");
     }
 
+    /// Three of a hundred reports of a level that climbs, and the first of one that begins to.
+    #[test]
+    fn few_reports_that_were_lost_amid_a_motion_are_sure() {
+        let climbs = |from: usize| (0..100).map(|k| 0.3 * k.max(from) as f64).collect::<Vec<f64>>();
+        let predicted = climbs(0);
+        let values = (0..100).map(|k| predicted[if [20, 50, 80].contains(&k) { k - 1 } else { k }]).collect();
+        let (fits, lost) = read(values, &predicted, Law::Lost);
+        assert!(fits.is_some() && (lost.drawn, lost.amid) == (3, 3), "{lost:?}");
+        let late = (0..100).map(|k| climbs(50)[if k == 51 { 50 } else { k }]).collect();
+        let (fits, begins) = read(late, &climbs(50), Law::Lost);
+        assert!(fits.is_some() && (begins.drawn, begins.amid) == (1, 0), "{begins:?}");
+    }
+
+    /// A flag of which two reports in five are lost: it is seen where it should be in the end, and a short pulse not at all.
+    #[test]
+    fn a_flag_tells_how_many_of_its_reports_are_lost() {
+        let mut flag = Track::of_values(Vec::new());
+        flag.grid = Arc::new(Grid::of_steps(0.05, 80.0));
+        let (mut predicted, mut state) = (Vec::new(), vec![0.0; 1601]);
+        for k in 0..50_usize {
+            let on = 30 * k + 10;
+            // Each third time for two cycles.
+            let off = on + if k % 3 == 0 { 2 } else { 12 };
+            let early = 0.05 * (((k * 23) % 50) as f64 + 0.5) / 50.0;
+            predicted.extend([(0.05 * on as f64 - early, on, 1.0), (0.05 * off as f64 - early, off, 0.0)]);
+            state[on..off].fill(1.0);
+        }
+        // Numbers that look drawn: those of D. H. Lehmer's generator.
+        let (mut drawn, mut last) = (20_261_126_u64, 0.0);
+        for k in 1..1600 {
+            drawn = drawn * 48_271 % 2_147_483_647;
+            if drawn % 5 > 1 && state[k] != last {
+                last = state[k];
+                flag.edges.push(Edge { index: k, to: last });
+            }
+        }
+        let mut reading = Reading { cycle: 0.05, ..Reading::default() };
+        reading.flag_late(&flag, 0.0, &predicted, 1e-4, false).expect("lost reports");
+        let (least, share, most) = reading.share();
+        assert!(least < 0.4 && 0.4 < most && most - least < 0.25, "{least} {share} {most}");
+    }
+
     /// A level that is a tenth too low is neither.
     #[test]
     fn what_is_neither_fits_no_law() {
@@ -561,9 +630,11 @@ mod tests {
                 predicted.push((0.01 * (index as f64 - share), index, to));
                 flag.edges.push(Edge { index: index + usize::from(is_late(k, share)), to });
             }
-            Reading::default().flag_late(&flag, &predicted, 1e-4, false)
+            Reading::default().flag_late(&flag, 0.0, &predicted, 1e-4, false)
         };
         assert!(read(&|_, share| share < 0.3).is_none());
+        // Of half that are late half would have been lost once more.
+        assert!(read(&|k, _| k % 4 < 2).is_none());
         assert!(read(&|k, _| k % 5 == 0).is_some());
     }
 
