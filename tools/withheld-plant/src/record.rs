@@ -180,7 +180,8 @@ pub fn passes<'a>(quirks: &'a [Quirk], signal: &'a Signal) -> impl Iterator<Item
     sensor.chain(of_device.at("report-link", port))
 }
 
-/// All that a signal passes from its sensor to its report, in order: what is wrong there, and the filter of its input.
+/// All that a signal passes from its sensor to its report, in order: what is wrong there, and the filter of its input. Messages bring what has passed
+/// that.
 pub fn way(quirks: &[Quirk], signal: &Signal, around: &Surroundings) -> Vec<Quirk> {
     let mut way: Vec<Quirk> = passes(quirks, signal).cloned().collect();
     for quirk in way.iter_mut().filter(|quirk| quirk.effect == "lost-messages") {
@@ -189,14 +190,16 @@ pub fn way(quirks: &[Quirk], signal: &Signal, around: &Surroundings) -> Vec<Quir
         quirk.parameters.push(("phase".to_owned(), around.sample(around.phase) - BEFORE_S));
     }
     if signal.kind == Kind::Flag && around.filter > 0.0 {
-        way.push(Quirk {
+        let filter = Quirk {
             effect: "input-filter".to_owned(),
             parameters: vec![("time_constant".to_owned(), around.filter)],
             device: String::new(),
             component: None,
             place: String::new(),
             with: None,
-        });
+        };
+        let messages = way.iter().position(|quirk| quirk.effect == "lost-messages");
+        way.insert(messages.unwrap_or(way.len()), filter);
     }
     way
 }
@@ -355,4 +358,27 @@ pub fn heard(script: &[Command], known: &[(String, Kind)]) -> Vec<Command> {
         }
     }
     heard
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::quirk;
+
+    /// A flag that is filtered for 1 ms before each of its reports is taken, of which none is lost.
+    #[test]
+    fn a_link_that_loses_nothing_brings_each_report_when_it_was_due() {
+        let around =
+            Surroundings { filter: 1e-3, cycle: 0.02, phase: 0.01, ..Surroundings::draw(&mut Dice::new(1, 1)) };
+        let signal = Signal { name: "D.flag".to_owned(), kind: Kind::Flag, quantum: 0.0, sigma: 0.0 };
+        let seen = |quirks: &[Quirk]| -> Vec<f64> {
+            let mut stream = Stream::new(true);
+            [(0.0, 0.0), (0.104, 1.0), (0.158, 0.0)].into_iter().for_each(|(at, value)| stream.push(at, value));
+            let stream = reported(stream, &signal, quirks, &around, 0.3, &mut Dice::new(1, 1));
+            around.due(0.3).into_iter().map(|due| stream.at(around.sample(due))).collect()
+        };
+        let link = Quirk { place: "report-link".to_owned(), ..quirk("D", "lost-messages", &[("probability", 0.0)]) };
+        assert!(seen(&[]).contains(&1.0));
+        assert_eq!(seen(&[link]), seen(&[]));
+    }
 }
