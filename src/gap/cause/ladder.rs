@@ -121,7 +121,7 @@ pub fn climb(
             return Some(ladder);
         }
         ladder.beneath = found;
-    } else {
+    } else if Standing::of_trial(bench, &ladder.bare)?.excess(ladder.bare.cost) < least_excess(&ladder.bare) {
         ladder.beneath = evidence(bench.subject, &prediction).max(standing_out(&ladder.bare.blocks));
     }
     ladder.subject = bench.subject.tolerant(&prediction);
@@ -181,6 +181,12 @@ enum Rung {
     Left,
 }
 
+/// From which excess on an effect is looked for. What remembers itself may be what an effect leaves of itself: whether one is worth having is asked of what is
+/// left with it.
+fn least_excess(trial: &Trial) -> f64 {
+    least_gain(1, 1) * trial.inflation().min(MOST_INFLATED)
+}
+
 /// One rung.
 fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool + Sync), tell: &Tell<'_>) -> Rung {
     let below = ladder.best.clone();
@@ -193,12 +199,9 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
-    // What remembers itself may be what an effect leaves of itself: whether one is worth having is asked of what is left with it.
-    let (beneath, inflation) = match below.set.is_empty() {
-        true => (ladder.beneath, 1.0),
-        false => (0.0, plain.inflation().min(MOST_INFLATED)),
-    };
-    if standing.excess(plain.cost).max(beneath) < least_gain(1, 1) * inflation {
+    let beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
+    let least = if beneath > 0.0 { least_gain(1, 1) } else { least_excess(&plain) };
+    if standing.excess(plain.cost).max(beneath) < least {
         return Rung::Left;
     }
     let subject = ladder.subject.clone();

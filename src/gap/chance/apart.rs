@@ -72,11 +72,9 @@ fn together(subject: &Subject, told: &[Told]) -> Vec<Together> {
         match all.last_mut().filter(|last| (last.run, last.from) == (run, from)) {
             Some(last) => last.places.end = at + 1,
             None => {
-                all.iter_mut()
-                    .filter(|last| last.run == run)
-                    .next_back()
-                    .into_iter()
-                    .for_each(|last| last.until = from);
+                if let Some(last) = all.iter_mut().rfind(|last| last.run == run) {
+                    last.until = from;
+                }
                 all.push(Together { places: at..at + 1, run, from, until: subject.runs[run].ends });
             }
         }

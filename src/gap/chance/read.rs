@@ -311,7 +311,8 @@ impl Reading {
         if early as f64 > EARLY * predicted.len() as f64 {
             return None;
         }
-        if !is_known && !(is_by_chance(&room, &room_of_late) && tries[0].is_like(&tries[1])) {
+        let is_drawn = is_known || (is_by_chance(&room, &room_of_late) && tries[0].is_like(&tries[1]));
+        if !is_drawn {
             return None;
         }
         self.telling += tries[0].made() + tries[1].made();
@@ -594,10 +595,10 @@ mod tests {
         }
         // Numbers that look drawn: those of D. H. Lehmer's generator.
         let (mut drawn, mut last) = (20_261_126_u64, 0.0);
-        for k in 1..1600 {
+        for (k, shown) in state.into_iter().enumerate().take(1600).skip(1) {
             drawn = drawn * 48_271 % 2_147_483_647;
-            if drawn % 5 > 1 && state[k] != last {
-                last = state[k];
+            if drawn % 5 > 1 && shown != last {
+                last = shown;
                 flag.edges.push(Edge { index: k, to: last });
             }
         }

@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn only_what_others_do_not_cost_stands_out() {
-        assert_eq!(standing_out(&[1.0, 1.2, 0.8, 11.0, 1.0, 1.9]), 8.9);
+        assert_eq!(standing_out(&[1.0, 1.0, 0.8, 11.0, 1.0, 1.9]), 9.0);
         assert_eq!(standing_out(&[1.0, 1.2, 0.8, 1.9, 1.0]), 0.0);
         assert_eq!(standing_out(&[]), 0.0);
     }
