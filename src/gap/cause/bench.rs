@@ -244,7 +244,7 @@ impl<'a> Bench<'a> {
         let basis = orthonormal(&others.iter().map(|place| known.column(*place)).collect::<Vec<_>>());
         let left = |mut residuals: Vec<f64>| {
             take_out(&mut residuals, &basis);
-            fit::sum_of_squares(&residuals)
+            sum_of_squares(&residuals)
         };
         let (mut at, mut least) = (trial.at.clone(), left(known.here().to_vec()));
         let (cycle, mut steps) = (self.longest_task(), FURTHEST);

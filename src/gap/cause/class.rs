@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::bench::{BLOCK_S, Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Tell, anew, handicap};
+use super::rhythm::PART;
 use super::rung::rung;
 use super::unseen::unseen;
 use crate::gap::fit::{Range, sum_of_squares};
@@ -167,7 +168,6 @@ fn starts(bench: &Bench<'_>, (best, place): (&Trial, usize), trial: &Trial) -> V
 /// What a period of a candidate beside `below` others gains by having been looked for among so many: as many as differ by a part of themselves over the
 /// recording, of which one is that of the machine's own reports or commands, by which all of them wait alike, as behind a dead time.
 pub fn coincidence(trial: &Trial, below: usize) -> f64 {
-    const PART: f64 = 0.12;
     let long = trial.blocks.len() as f64 * BLOCK_S;
     let periods = trial.values().skip(below).filter(|(candidate, _)| candidate.effect.id == "stale-hold");
     periods.filter_map(|(_, own)| own.first()).map(|period| 2.0 * (long / (PART * period)).max(1.0).ln()).sum()

@@ -13,7 +13,7 @@ use crate::gap::statistics::quantile;
 const OF_LATENESS: [f64; 2] = [1.0, 8.0];
 const WITHIN_S: [f64; 2] = [4e-3, 3.0];
 /// By which part of itself over all its turns one period differs from the next that is tried.
-const PART: f64 = 0.12;
+pub const PART: f64 = 0.12;
 /// How well a change is foreseen, s: as well as a cylinder's speed is known within a stroke.
 const FORESEEN_S: f64 = 5e-3;
 /// How well a report's instant is known in the machine's time, s.

@@ -147,7 +147,7 @@ impl<'a> Late<'a> {
     }
 
     /// Moves the delays on from where they are, beside these nominal parameters.
-    pub fn nearer(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
+    fn nearer(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
         self.ports().iter().try_for_each(|port| self.come_nearer(subject, overrides, *port))
     }
 

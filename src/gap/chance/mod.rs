@@ -153,9 +153,6 @@ const MOST_LEFT: f64 = 0.05;
 /// How often what was drawn and the nominal parameters are found anew, each beside the other.
 const ROUNDS: usize = 3;
 
-/// How often delays of commands and nominal parameters are then moved on from where they are.
-const NEARER: usize = 6;
-
 /// Looks for effects that draw in what `bare` leaves of the device at `place` of the study. `is_asked` says of an effect's id whether it is
 /// looked for, `is_stopped` whether the answer is wanted now.
 pub fn find(
@@ -359,15 +356,11 @@ fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> b
     };
     let (mut other, mut bare) = anew(&late, bare)?;
     // What commands that came late had made of the nominal parameters is undone by and by.
-    for round in 0..ROUNDS + NEARER {
-        let left = evidence(&other, &bare.prediction);
-        if left <= THRESHOLD || round >= ROUNDS && left > MOST_LEFT * before {
+    for _ in 0..ROUNDS {
+        if evidence(&other, &bare.prediction) <= THRESHOLD {
             break;
         }
-        match round < ROUNDS {
-            true => late.again(subject, &bare.overrides)?,
-            false => late.nearer(subject, &bare.overrides)?,
-        }
+        late.again(subject, &bare.overrides)?;
         (other, bare) = anew(&late, &bare)?;
     }
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
