@@ -218,8 +218,7 @@ impl Affected {
         let before = self.moved.take();
         self.moved = match (self.inner.role(), before) {
             (Role::Carries(belt), Some(Moved::Belt(sum))) => {
-                let displacement = sum.displacement + belt.displacement;
-                Some(Moved::Belt(Belt { displacement, speeds: [sum.speeds[0], belt.speeds[1]], ..*belt }))
+                Some(Moved::Belt(Belt { displacement: sum.displacement + belt.displacement, ..*belt }))
             }
             (Role::Carries(belt), _) => Some(Moved::Belt(*belt)),
             (Role::Pushes(plate), Some(Moved::Plate(sum))) => {
