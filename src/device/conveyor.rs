@@ -120,13 +120,24 @@ pub(super) fn belt(surface: Surface, parameters: &Parameters, instance: &str) ->
     };
     Ok(Belt {
         surface,
-        velocity: 0.0,
+        speeds: [0.0; 2],
         displacement: 0.0,
         barriers: [barrier("barrierA")?, barrier("barrierB")?],
         beam_height: parameters.number("beamHeight"),
         transfer: if parameters.text("transfer") == "share" { Transfer::Share } else { Transfer::Most },
         transfer_slip: 0.0,
+        grip: f64::INFINITY,
     })
+}
+
+/// What a belt is after its drive moved what goes with it by `way`, m or rad; `reach` is how far it goes for one of the drive's.
+pub(super) fn moved(belt: &mut Belt, drive: &Driven, way: f64, reach: f64) {
+    belt.displacement = way * reach;
+    belt.speeds = [belt.speeds[1], drive.load().velocity * reach];
+    if !drive.stages.is_nominal() {
+        belt.transfer_slip = drive.stages.process.transfer_slip();
+        belt.grip = drive.stages.process.grip();
+    }
 }
 
 /// A ramped drive's parameters: those of both conveyors and of the motor.
@@ -160,11 +171,8 @@ impl Device for Conveyor {
 
     fn advance(&mut self, seconds: f64) {
         // Actuator, mechanics and transmission: the belt follows the drum. Process: the parts follow the belt.
-        self.belt.displacement = self.drive.advance(seconds);
-        self.belt.velocity = self.drive.load().velocity;
-        if !self.drive.stages.is_nominal() {
-            self.belt.transfer_slip = self.drive.stages.process.transfer_slip();
-        }
+        let way = self.drive.advance(seconds);
+        moved(&mut self.belt, &self.drive, way, 1.0);
     }
 
     fn report(&mut self, reports: &mut [f64]) {

@@ -114,7 +114,7 @@ impl Driven {
             let before = self.load;
             self.load = self.stages.transmission.motion(self.motor, moment);
             let way = self.load.position - before.position;
-            self.carried += self.stages.process.carried(way, self.load.velocity, before.velocity, moment);
+            self.carried += self.stages.process.carried(way);
             self.pass(moment);
         }
         self.carried - start

@@ -1,6 +1,6 @@
 //! `kinetwin.InverterConveyor`: a straight belt whose drum an inverter motor turns through a gear, with an encoder on the motor.
 
-use crate::device::conveyor::{self, belt, drive_settings};
+use crate::device::conveyor::{self, belt, drive_settings, moved};
 use crate::device::driven::Driven;
 use crate::device::law::encoder::Encoder;
 use crate::device::law::{STANDSTILL, moves};
@@ -119,11 +119,8 @@ impl Device for InverterConveyor {
 
     fn advance(&mut self, seconds: f64) {
         // The drive is that of the motor; the belt follows the drum.
-        self.belt.displacement = self.drive.advance(seconds) * self.reach;
-        self.belt.velocity = self.drive.load().velocity * self.reach;
-        if !self.drive.stages.is_nominal() {
-            self.belt.transfer_slip = self.drive.stages.process.transfer_slip();
-        }
+        let way = self.drive.advance(seconds);
+        moved(&mut self.belt, &self.drive, way, self.reach);
     }
 
     fn report(&mut self, reports: &mut [f64]) {

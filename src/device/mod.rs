@@ -301,8 +301,8 @@ impl Surface {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Belt {
     pub surface: Surface,
-    /// Present speed along the centre line, m/s.
-    pub velocity: f64,
+    /// Speed along the centre line before the last `advance` and now, m/s.
+    pub speeds: [f64; 2],
     /// How far the surface moved in the last `advance`, m on the centre line.
     pub displacement: f64,
     /// Where the beams of the light barriers cross, m along the centre line from the start.
@@ -313,6 +313,8 @@ pub struct Belt {
     pub transfer: Transfer,
     /// Which share of its way on this belt such a part loses; 0 nominally.
     pub transfer_slip: f64,
+    /// The steepest change of speed that parts follow, m/s²; infinite nominally.
+    pub grip: f64,
 }
 
 /// How a part on two belts moves.

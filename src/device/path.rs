@@ -189,10 +189,14 @@ pub trait Stage: Send + Sync + fmt::Debug {
         times
     }
 
-    /// How far a part moves when its belt moved by `displacement` (m) in the stretch, the belt's speed being `velocity` now and
-    /// `before` at the stretch's start (m/s).
-    fn carried(&mut self, displacement: f64, _velocity: f64, _before: f64, _moment: Moment) -> f64 {
+    /// How far a belt takes what goes with it when it moved by `displacement` in the stretch, m.
+    fn carried(&mut self, displacement: f64) -> f64 {
         displacement
+    }
+
+    /// The steepest change of its belt's speed that a part follows, m/s²; infinite where none slips.
+    fn grip(&self) -> f64 {
+        f64::INFINITY
     }
 
     /// Which share of its way a part loses while it stands on this belt and on another.
@@ -316,8 +320,13 @@ impl Path {
     }
 
     /// See [`Stage::carried`].
-    pub fn carried(&mut self, displacement: f64, velocity: f64, before: f64, moment: Moment) -> f64 {
-        self.stages.iter_mut().fold(displacement, |way, stage| stage.carried(way, velocity, before, moment))
+    pub fn carried(&mut self, displacement: f64) -> f64 {
+        self.stages.iter_mut().fold(displacement, |way, stage| stage.carried(way))
+    }
+
+    /// See [`Stage::grip`]; the least of all.
+    pub fn grip(&self) -> f64 {
+        self.stages.iter().map(|stage| stage.grip()).fold(f64::INFINITY, f64::min)
     }
 
     /// The longest stretch that all stages bear, s; infinite without one.

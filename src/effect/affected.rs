@@ -218,7 +218,8 @@ impl Affected {
         let before = self.moved.take();
         self.moved = match (self.inner.role(), before) {
             (Role::Carries(belt), Some(Moved::Belt(sum))) => {
-                Some(Moved::Belt(Belt { displacement: sum.displacement + belt.displacement, ..*belt }))
+                let displacement = sum.displacement + belt.displacement;
+                Some(Moved::Belt(Belt { displacement, speeds: [sum.speeds[0], belt.speeds[1]], ..*belt }))
             }
             (Role::Carries(belt), _) => Some(Moved::Belt(*belt)),
             (Role::Pushes(plate), Some(Moved::Plate(sum))) => {

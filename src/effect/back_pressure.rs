@@ -5,7 +5,7 @@
 //! (μ·m·g each), taken as a loss of way to first order.
 
 use super::table::{BASE, ONE, parameter};
-use crate::device::path::{Moment, Stage};
+use crate::device::path::Stage;
 use crate::effect::{Build, EffectDescriptor, Fit};
 use crate::plant::EffectPlace;
 
@@ -45,7 +45,7 @@ impl Stage for BackPressure {
         self.queued = queued;
     }
 
-    fn carried(&mut self, displacement: f64, _velocity: f64, _before: f64, _moment: Moment) -> f64 {
+    fn carried(&mut self, displacement: f64) -> f64 {
         (1.0 - self.coefficient * self.queued).max(LEAST) * displacement
     }
 

@@ -4,8 +4,8 @@
 //! Source: Euler's limit of the force that a drum transmits, F ≤ F0·(e^(μα) − 1) (G. Niemann, H. Winter, Maschinenelemente 3,
 //! Springer 1986, section 27), over the mass that the belt moves.
 
-use super::follower::Follower;
 use super::table::{ACCELERATION, BASE, UNLIMITED, parameter};
+use crate::device::law::follower::Follower;
 use crate::device::path::{Moment, Motion, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, Needs};
 use crate::plant::EffectPlace;

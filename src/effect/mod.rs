@@ -33,7 +33,6 @@ mod direction_asymmetry;
 mod drift;
 mod end_cushioning;
 mod first_order_lag;
-mod follower;
 mod force_limit;
 mod gain;
 mod gain_error;

@@ -1,11 +1,10 @@
 //! `part-slip`: parts slip on their belt while it changes its speed more steeply than `acceleration`, which is what friction
-//! gives them: μ·g. All parts of a belt slip alike; one that is put there while others slip takes their speed.
+//! gives them: μ·g. Each slips by itself; one that is put there, or comes from another belt, takes the belt's speed.
 //!
 //! Source: Coulomb friction of a body on a moving support, |a| ≤ μ·g (any textbook of mechanics).
 
-use super::follower::Follower;
 use super::table::{BASE, LINEAR_ACCELERATION, UNLIMITED, parameter};
-use crate::device::path::{Moment, Stage};
+use crate::device::path::Stage;
 use crate::effect::{Build, EffectDescriptor, Fit};
 use crate::plant::EffectPlace;
 
@@ -26,14 +25,13 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
         "steepest change of speed that parts follow",
     )],
     excited_by: "starts and stops with parts on the belt",
-    build: Build::Stage(|values, _| Box::new(PartSlip { limit: values[0], parts: Follower::new(values[0]) })),
+    build: Build::Stage(|values, _| Box::new(PartSlip { limit: values[0] })),
     ..BASE
 };
 
 #[derive(Clone, Debug)]
 struct PartSlip {
     limit: f64,
-    parts: Follower,
 }
 
 impl Stage for PartSlip {
@@ -41,30 +39,26 @@ impl Stage for PartSlip {
         Box::new(self.clone())
     }
 
-    fn carried(&mut self, displacement: f64, velocity: f64, before: f64, moment: Moment) -> f64 {
-        if self.limit >= UNLIMITED {
-            return displacement;
-        }
-        self.parts.follow(displacement, before, velocity, moment.span)
+    fn grip(&self) -> f64 {
+        if self.limit >= UNLIMITED { f64::INFINITY } else { self.limit }
     }
 
-    fn state(&self, visit: &mut dyn FnMut(f64)) {
-        self.parts.state(visit);
-    }
+    fn state(&self, _visit: &mut dyn FnMut(f64)) {}
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::device::Role;
     use crate::effect::bench::{spec, with};
 
+    // That parts slide is tested on the floor that carries them.
     #[test]
-    fn parts_start_late_and_stop_late() {
-        let slip = spec("process", "part-slip", None, &[("acceleration", 0.5)]);
-        let mut belt = with("StraightConveyor", &[], &[slip]);
+    fn the_belt_says_what_friction_gives_its_parts() {
+        let slip = |steepest| spec("process", "part-slip", None, &[("acceleration", steepest)]);
+        let mut belt = with("StraightConveyor", &[], &[slip(0.5), slip(0.2)]);
         belt.check(&[("velocityTarget", 0.5), ("motorDirection", 1.0)], 2.0, &[("velocityActual", 0.5)]);
-        assert!((belt.displacement() - 0.75).abs() < 1e-12, "{}", belt.displacement());
-        // The belt stops in 0.5 s and 0.125 m, the parts in 1 s and 0.25 m.
-        belt.check(&[("motorDirection", 0.0)], 2.0, &[("velocityActual", 0.0)]);
-        assert!((belt.displacement() - 0.25).abs() < 1e-12, "{}", belt.displacement());
+        assert!((belt.displacement() - 0.875).abs() < 1e-12);
+        let Role::Carries(body) = belt.device.role() else { panic!("a belt") };
+        assert_eq!((body.grip, body.speeds[1]), (0.2, 0.5));
     }
 }

@@ -316,7 +316,7 @@ impl Eyes {
         device.report(&mut seen);
         seen.push(self.moved);
         match device.role() {
-            Role::Carries(belt) => seen.push(belt.transfer_slip),
+            Role::Carries(belt) => seen.extend([belt.transfer_slip, belt.grip.min(1e9)]),
             Role::Moves(tool) => {
                 seen.extend(tool.position.iter().chain([&tool.rotation, &f64::from(u8::from(tool.grip))]))
             }

@@ -77,6 +77,9 @@ impl Engine {
             };
             hash.whole(what);
             hash.whole(which);
+            if let Some(velocity) = part.slider.velocity() {
+                hash.number(velocity);
+            }
         }
         let counts = self.floor.counts();
         for count in [counts.boxes_in, counts.boxes_out, counts.boxes_lost, counts.pallets_in, counts.pallets_out] {

@@ -288,8 +288,7 @@ impl Engine {
             }
             match (unit.device.role(), unit.body) {
                 (Role::Carries(belt), UnitBody::Belt(index)) => {
-                    self.floor.belts[index].displacement = belt.displacement;
-                    self.floor.belts[index].transfer_slip = belt.transfer_slip;
+                    self.floor.belts[index].follow(belt);
                 }
                 (Role::Pushes(plate), UnitBody::Plate(index)) => {
                     self.floor.plates[index].set(plate.position, plate.displacement, plate.size[0]);

@@ -4,6 +4,7 @@
 //! as that reported that it went. While it stands on both, the belt that carries it may lose a share of its way.
 
 use super::way::Way;
+use crate::device::law::follower::{Slider, Stretch};
 
 /// A belt's length and what lies at its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -74,6 +75,8 @@ pub(super) struct Rider {
     pub beyond: f64,
     /// How fast this belt last carried it, m/s.
     pub speed: f64,
+    /// How it slides on this belt.
+    pub slider: Slider,
     /// By how much its middle may be past the belt's end though it has not left, m: a beam sees it again.
     pub past: f64,
 }
@@ -86,8 +89,25 @@ pub(super) struct Step {
     pub to: f64,
     /// How far the belt carries what stands on it, m.
     pub way: f64,
-    /// Which share of that a part loses that stands on another belt, too.
+    /// How fast the belt is at both, m/s.
+    pub speeds: [f64; 2],
+    /// Which share of its way a part loses that stands on another belt, too.
     pub slip: f64,
+    /// The steepest change of speed that parts follow, m/s²; infinite where none slides.
+    pub grip: f64,
+}
+
+impl Step {
+    /// At an even speed, on a belt on which nothing slips.
+    pub fn even(from: f64, to: f64, way: f64) -> Step {
+        let speed = way / (to - from).max(1e-9);
+        Step { from, to, way, speeds: [speed; 2], slip: 0.0, grip: f64::INFINITY }
+    }
+
+    /// What the belt does.
+    pub fn stretch(&self) -> Stretch {
+        Stretch { way: self.way, speeds: self.speeds, span: self.to - self.from }
+    }
 }
 
 /// Into how many parts a step is cut where a part is shared by two belts.
@@ -133,6 +153,10 @@ impl Lane {
 
     /// Moves a part by itself, as if nothing stood in its way.
     pub fn carry(&self, rider: &mut Rider, step: &Step) {
+        let slides = step.grip.is_finite() && !self.is_beyond(rider);
+        rider.slider = if slides { rider.slider } else { Slider::default() };
+        let way = if slides { rider.slider.ride(step.grip, &step.stretch()) } else { step.way };
+        let step = &Step { way, ..*step };
         let far = rider.length.is_finite() && !self.is_amidst(rider, step.way);
         if !self.is_beyond(rider) {
             rider.speed = step.way.abs() / (step.to - step.from).max(1e-9);
@@ -240,6 +264,12 @@ impl Lane {
 }
 
 impl Rider {
+    /// One that is seen first now.
+    pub fn new(part: usize, centre: f64, length: f64) -> Rider {
+        let slider = Slider::default();
+        Rider { part, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, slider, past: 0.0 }
+    }
+
     fn step(&mut self, way: f64) {
         self.centre += way;
         self.gone += way;
@@ -277,7 +307,7 @@ mod tests {
     }
 
     fn rider(part: usize, centre: f64) -> Rider {
-        Rider { part, centre, length: 0.4, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, past: 0.0 }
+        Rider::new(part, centre, 0.4)
     }
 
     /// Where a part is that began at `centre` after so many seconds on a belt at 0.5 m/s, in steps of 20 ms.
@@ -285,7 +315,7 @@ mod tests {
         let mut rider = rider(0, centre);
         for step in 0..(seconds / 0.02).round() as u32 {
             let from = 0.02 * f64::from(step);
-            lane.carry(&mut rider, &Step { from, to: from + 0.02, way: 0.01, slip });
+            lane.carry(&mut rider, &Step { slip, ..Step::even(from, from + 0.02, 0.01) });
         }
         rider
     }
@@ -321,7 +351,7 @@ mod tests {
         let mut queued = 0;
         for step in 0..200 {
             let from = 0.02 * f64::from(step);
-            queued = lane.carry_all(&mut riders, &Step { from, to: from + 0.02, way: 0.01, slip: 0.0 });
+            queued = lane.carry_all(&mut riders, &Step::even(from, from + 0.02, 0.01));
         }
         let places = riders.map(|rider| (rider.part, (rider.centre * 1e6).round() / 1e6));
         assert_eq!((places, queued), ([(1, 2.0), (2, 1.6), (0, 1.2)], 2));
@@ -331,7 +361,7 @@ mod tests {
     fn a_part_that_two_belts_share_goes_at_a_speed_between() {
         let lane = Lane { shares: true, ..lane(0.2, &[]) };
         let mut found = rider(0, 2.0);
-        lane.carry(&mut found, &Step { from: 0.0, to: 1e-3, way: 5e-4, slip: 0.0 });
+        lane.carry(&mut found, &Step::even(0.0, 1e-3, 5e-4));
         assert!((found.gone - 3.5e-4).abs() < 1e-6, "{found:?}");
     }
 

@@ -434,12 +434,12 @@ fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> 
     const STEP_S: f64 = 0.02;
     let Some(front) = geometry.beams[cut.beam] else { return f64::INFINITY };
     let centre = front - 0.5 * cut.way * length;
-    let mut rider = Rider { part: 0, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, past: 0.0 };
+    let mut rider = Rider::new(0, centre, length);
     let steps = ((cut.to - cut.from) / STEP_S).ceil().max(1.0);
     let at = |step: f64| cut.from + (cut.to - cut.from) * step / steps;
     for step in 0..steps as u32 {
         let (from, to) = (at(f64::from(step)), at(f64::from(step + 1)));
-        geometry.lane.carry(&mut rider, &Step { from, to, way: travel(to) - travel(from), slip: 0.0 });
+        geometry.lane.carry(&mut rider, &Step::even(from, to, travel(to) - travel(from)));
     }
     // It leaves an open end before all of it has passed the beam.
     let left = match (&geometry.lane.ends, cut.way > 0.0) {

@@ -1,4 +1,6 @@
-//! How far a belt has gone.
+//! How far a belt has gone, and what lies on it.
+
+use crate::device::law::follower::{Slider, Stretch};
 
 /// How far a belt has gone by when.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +34,30 @@ impl Way {
         Way { instants, metres }
     }
 
+    /// How far what lies on it has gone where friction gives that at most `grip`, m/s²; what is `put` there at some instants, s, ascending,
+    /// takes the belt's speed, and is what is followed from then on.
+    pub fn of_parts(&self, grip: f64, put: &[f64]) -> Way {
+        let speed_between = |from: usize, to: usize| {
+            let span = (self.instants[to] - self.instants[from]).max(1e-9);
+            (self.metres[to] - self.metres[from]) / span
+        };
+        let last = self.instants.len().saturating_sub(1);
+        let speed_at = |index: usize| speed_between(index.saturating_sub(1), (index + 1).min(last));
+        let (mut slider, mut put) = (Slider::default(), put.iter().peekable());
+        let mut gone = self.metres.first().copied().unwrap_or_default();
+        let mut metres: Vec<f64> = self.metres.first().copied().into_iter().collect();
+        for next in 1..self.instants.len() {
+            let (from, to) = (self.instants[next - 1], self.instants[next]);
+            while put.next_if(|at| **at <= from).is_some() {
+                slider = Slider::default();
+            }
+            let way = self.metres[next] - self.metres[next - 1];
+            gone += slider.ride(grip, &Stretch { way, speeds: [speed_at(next - 1), speed_at(next)], span: to - from });
+            metres.push(gone);
+        }
+        Way { instants: self.instants.clone(), metres }
+    }
+
     /// How far it has gone by an instant, m: straight between two instants, and before and behind them all as at the nearest.
     pub fn at(&self, instant: f64) -> f64 {
         let (Some(&first), Some(&last)) = (self.metres.first(), self.metres.last()) else { return 0.0 };
@@ -48,6 +74,18 @@ impl Way {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 0.5 m/s from 1 s on; what lay there loses half of 0.5 m/s times 2 s on the way, what was put there at 3 s no more than it has lost by then.
+    #[test]
+    fn what_lies_on_a_belt_that_starts_too_fast_stays_behind() {
+        let instants: Vec<f64> = (0..=500).map(|k| 0.01 * f64::from(k)).collect();
+        let metres = instants.iter().map(|at| 0.5 * (at - 1.0).max(0.0)).collect();
+        let belt = Way { instants, metres };
+        let behind = |grip: f64, put: &[f64]| belt.at(5.0) - belt.of_parts(grip, put).at(5.0);
+        assert!((behind(0.25, &[]) - 0.5).abs() < 0.01, "{}", behind(0.25, &[]));
+        assert!((behind(0.25, &[2.0]) - 0.375).abs() < 0.01, "{}", behind(0.25, &[2.0]));
+        assert_eq!(behind(f64::INFINITY, &[]), 0.0);
+    }
 
     /// A speed of which only changes are told stands in between: 0.5 m/s for 1.9 s, and down to nothing within the last cycle.
     #[test]

@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use super::lane::{Lane, Rider, Step};
 use super::prediction::Passing;
-use crate::device::{Device, Role, Surroundings};
+use crate::device::law::follower::Slider;
+use crate::device::path::STRETCH_S;
+use crate::device::{Belt, Device, Role, Surroundings};
 
 /// What a run does to a device from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,6 +26,9 @@ pub struct Script {
     pub beams: [Option<f64>; 2],
     /// The parts that the belt brings back to a beam.
     pub back: Vec<usize>,
+    /// Of a belt that a bay alone feeds: when parts are due, s, and how far their fronts are from the belt's start then, m.
+    pub put: Vec<f64>,
+    pub put_front: Option<f64>,
 }
 
 /// By how much a part may seem to have gone past the belt's end that it brings back, m: as far as tolerances put where it is.
@@ -36,6 +41,12 @@ pub(super) fn is_one_length(one: f64, other: f64) -> bool {
 }
 
 impl Script {
+    /// Whether a bay puts the part of a cut so near to the beam that this sees it at once.
+    fn is_put_into_the_beam(&self, cut: &Cut) -> bool {
+        const NEAR_M: f64 = 0.03;
+        cut.is_known && self.put_front.is_some_and(|front| front > cut.front - NEAR_M)
+    }
+
     /// The same with the parts of one length, m, being of another, and those that a bay put with their middles `at`, m from the
     /// belt's start. What it puts into the beam is seen at once, its front being past it.
     pub(super) fn with_parts_of(&self, declared: f64, made: f64, at: f64) -> Arc<Script> {
@@ -120,6 +131,9 @@ pub(super) struct World {
     active: Vec<Cut>,
     /// The parts that are there.
     riders: Vec<Rider>,
+    /// How what came last and no beam has seen slides on its way to the first.
+    unseen: Slider,
+    next_put: usize,
     /// How many of them are held back.
     queued: u32,
     told: Surroundings,
@@ -144,6 +158,8 @@ impl World {
             next_told: 0,
             active: Vec::new(),
             riders: Vec::new(),
+            unseen: Slider::default(),
+            next_put: 0,
             queued: 0,
             shown_queue: 0,
             shown_here: 0,
@@ -157,6 +173,10 @@ impl World {
     /// Shows the device what is so at t = 0.
     pub fn begin(&mut self, device: &mut dyn Device) {
         let between = |[first, second]: [Option<f64>; 2]| Some(second? - first?);
+        if matches!(device.role(), Role::Carries(_)) {
+            // A belt says what it gives its parts once it has moved.
+            device.advance(0.0);
+        }
         if let Role::Carries(belt) = device.role() {
             let both = between(belt.barriers).zip(between(self.script.beams));
             self.apart = both.map_or(0.0, |(here, there)| here - there);
@@ -212,12 +232,32 @@ impl World {
 
     /// Moves the device, and the parts on it with it.
     fn carry(&mut self, device: &mut dyn Device, now: f64, until: f64) {
-        device.advance(until - now);
-        let Role::Carries(belt) = device.role() else { return };
-        if !self.riders.is_empty() {
-            let step = Step { from: now, to: until, way: belt.displacement, slip: belt.transfer_slip };
-            self.queued = self.script.lane.carry_all(&mut self.riders, &step);
+        let mut from = now;
+        while from < until {
+            // How parts slide is only known from one instant to the next.
+            let slides = matches!(device.role(), Role::Carries(belt) if belt.grip.is_finite());
+            let to = if slides { until.min(from + STRETCH_S) } else { until };
+            device.advance(to - from);
+            let Role::Carries(belt) = device.role() else { return };
+            let Belt { displacement: way, speeds, transfer_slip: slip, grip, .. } = *belt;
+            let step = Step { from, to, way, speeds, slip, grip };
+            if slides {
+                self.slide_unseen(&step);
+            }
+            if !self.riders.is_empty() {
+                self.queued = self.script.lane.carry_all(&mut self.riders, &step);
+            }
+            from = to;
         }
+    }
+
+    /// Lets what no beam has seen slide, as one that is put there takes the belt's speed.
+    fn slide_unseen(&mut self, step: &Step) {
+        while self.script.put.get(self.next_put).is_some_and(|at| *at <= step.from) {
+            self.next_put += 1;
+            self.unseen = Slider::default();
+        }
+        self.unseen.ride(step.grip, &step.stretch());
     }
 
     /// Moves on to `until`, or to the first crossing of a beam or an end.
@@ -247,7 +287,8 @@ impl World {
         while let Some(cut) = self.script.cuts.get(self.next_cut).filter(|cut| cut.from <= now) {
             self.active.push(self.moved(cut));
             let past = if self.script.back.contains(&cut.part) { PAST_M } else { 0.0 };
-            put_on(&mut self.riders, cut, past);
+            let slider = if self.script.is_put_into_the_beam(cut) { Slider::default() } else { self.unseen };
+            put_on(&mut self.riders, cut, past, slider);
             self.next_cut += 1;
             news = true;
         }
@@ -323,7 +364,7 @@ impl World {
     fn crossed(&mut self, device: &mut dyn Device) {
         let beams = self.cut();
         let speed = match device.role() {
-            Role::Carries(belt) => belt.velocity,
+            Role::Carries(belt) => belt.speeds[1],
             _ => 0.0,
         };
         for (beam, is_cut) in beams.into_iter().enumerate() {
@@ -334,7 +375,8 @@ impl World {
                     let leaves = if self.script.lane.has_left(rider) { 0.0 } else { f64::INFINITY };
                     // Sooner at the end of this belt is sooner behind it.
                     let was_here = rider.speed > 0.0 && self.script.lane.is_beyond(rider);
-                    let speed = if was_here { rider.speed } else { cut.way * speed };
+                    let own = rider.slider.velocity().unwrap_or(speed);
+                    let speed = if was_here { rider.speed } else { cut.way * own };
                     let passing = Passing { part: cut.part, speed, astray: rider.astray() };
                     (progress.abs().min((progress - cut.length).abs()).min(leaves), passing)
                 };
@@ -360,7 +402,7 @@ impl World {
 }
 
 /// Puts the part of a cut on the belt, if it is not there.
-fn put_on(riders: &mut Vec<Rider>, cut: &Cut, past: f64) {
+fn put_on(riders: &mut Vec<Rider>, cut: &Cut, past: f64, slider: Slider) {
     let centre = |length: f64| if length.is_finite() { cut.front - 0.5 * cut.way * length } else { cut.front };
     match riders.iter_mut().find(|rider| rider.part == cut.part) {
         // One of its cuts may say how long it is where the other does not.
@@ -372,7 +414,7 @@ fn put_on(riders: &mut Vec<Rider>, cut: &Cut, past: f64) {
         None => {
             let (part, length) = (cut.part, cut.length);
             let centre = centre(length);
-            riders.push(Rider { part, centre, length, gone: 0.0, factor: 0.0, beyond: 0.0, speed: 0.0, past });
+            riders.push(Rider { past, slider, ..Rider::new(part, centre, length) });
         }
     }
 }
@@ -380,7 +422,9 @@ fn put_on(riders: &mut Vec<Rider>, cut: &Cut, past: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect;
     use crate::gap::lane::{Beyond, End};
+    use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
 
     /// A part that a bay put at 0.15 m with its front at the beam at 0.3 m: 40 mm longer it is 20 mm past it, and reaches the next so much
     /// sooner; 40 mm shorter it is seen when its front comes there.
@@ -431,6 +475,49 @@ mod tests {
         assert_eq!(parts(&world), [0, 1]);
         world.advance(&mut device, 1.9, 2.1);
         assert_eq!(parts(&world), [1]);
+    }
+
+    /// A belt at 0.5 m/s that takes 0.5 s to stop, where friction gives parts 0.25 m/s². One that is in the beam from 1 s on goes on for 2 s and 0.5 m after
+    /// the belt was told to stop, the belt for 0.125 m; one that is put into the beam when that stands stays where it is.
+    #[test]
+    fn parts_slide_on_where_their_belt_stops() {
+        let cut = |part: usize, from: f64, is_known: bool| Cut {
+            part,
+            beam: 0,
+            from,
+            ahead: 0.0,
+            front: 0.3,
+            way: 1.0,
+            length: 5.0,
+            is_known,
+            taken: None,
+        };
+        let cuts = vec![cut(0, 1.0, false), cut(1, 2.6, true), cut(2, 2.6, false)];
+        let script = Script { cuts, put_front: Some(0.3), ..Script::default() };
+        let mut world = World::new(&Arc::new(script)).expect("something passes");
+        let bench = crate::device::bench::Bench::new("kinetwin.StraightConveyor", &[("acceleration", "1")]);
+        let slip = EffectSpec {
+            place: EffectPlace::Process,
+            kind: "part-slip".to_owned(),
+            component: None,
+            parameters: [("acceleration".to_owned(), ParameterValue::Number(0.25))].into(),
+        };
+        let mut device = effect::build(bench.kind, &bench.parameters, "Belt", &[slip], 1).expect("a belt");
+        let go = |world: &mut World, device: &mut Box<dyn Device>, from: f64, to: f64| {
+            world.advance_in_legs(device, from, to);
+            world.riders.iter().map(|rider| rider.gone).collect::<Vec<_>>()
+        };
+        world.begin(device.as_mut());
+        device.command(0, 0.5);
+        device.command(1, 1.0);
+        // It does not slip while the belt takes longer than friction for its speed.
+        go(&mut world, &mut device, -2.0, 1.0);
+        let started = go(&mut world, &mut device, 1.0, 2.0);
+        device.command(1, 0.0);
+        let gone = go(&mut world, &mut device, 2.0, 5.0);
+        assert!((started[0] - 0.5).abs() < 1e-9, "{started:?}");
+        // The last came at 2.6 s as one that slid with the first: 1.4 s at 0.35 m/s and falling.
+        assert!((gone[0] - 1.0).abs() < 1e-4 && gone[1] == 0.0 && (gone[2] - 0.245).abs() < 1e-4, "{gone:?}");
     }
 
     /// Its front goes onto the belt behind at 1.2 s, its middle at 1.5 s, its rear at 1.8 s.

@@ -5,6 +5,7 @@
 pub mod closing;
 pub mod drive;
 pub mod encoder;
+pub mod follower;
 pub mod profile;
 pub mod ramp;
 pub mod schedule;

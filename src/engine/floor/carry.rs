@@ -6,8 +6,9 @@
 //! the pairs are looked at.
 
 use super::contact::{self, Body, CONTACT_M, nearest_contact};
-use super::part::{Slot, Support};
+use super::part::{Part, Slot, Support};
 use super::{BeltBody, Floor, Transfer};
+use crate::device::law::follower::Stretch;
 use crate::kinematics::{Bounds, DVec2, Motion, TOUCH_M};
 
 /// A body of the floor.
@@ -74,6 +75,20 @@ impl Scratch {
 const MARGIN_M: f64 = 1e-4;
 
 impl Floor {
+    /// Finds out how far parts slide on belts that change their speed too steeply for them.
+    pub(super) fn slide(&mut self, seconds: f64) {
+        if self.belts.iter().all(|belt| belt.grip.is_infinite()) {
+            return;
+        }
+        for at in 0..self.parts.roots().len() {
+            let slot = self.parts.roots()[at];
+            if let Support::Belt(belt) = self.parts.get(slot).support {
+                let BeltBody { grip, displacement: way, speeds, .. } = self.belts[belt];
+                self.parts.slide(slot, grip, &Stretch { way, speeds, span: seconds });
+            }
+        }
+    }
+
     /// Moves what stands on belts.
     pub(super) fn carry(&mut self) {
         let mut scratch = std::mem::take(&mut self.carried);
@@ -133,9 +148,11 @@ impl Floor {
 
     /// How the part in `slot`, which stands on `belt`, is carried if nothing stands in its way.
     fn motion_of(&self, slot: Slot, belt: usize) -> Motion {
-        let block = &self.parts.get(slot).block;
+        let Part { block, slid, .. } = self.parts.get(slot);
         let centre = block.upright().place.truncate();
         let own = &self.belts[belt];
+        // What the part slides, it slides on the belt that bears it.
+        let way_of = |index: usize, bridges| self.way_of(index, if index == belt { *slid } else { 0.0 }, bridges);
         if own.transfer == Transfer::Share {
             let standing = self.standing(block, belt);
             let total: f64 = standing.iter().map(|(_, area)| area).sum();
@@ -143,23 +160,24 @@ impl Floor {
             // A belt that carries nothing of it moves nothing of it; that rules a total of 0 out, too.
             let bridges = standing.iter().filter(|(_, area)| *area > 0.0).count() > 1;
             for &(index, area) in standing.iter().filter(|(_, area)| *area > 0.0) {
-                let part = self.belts[index].surface.carry(centre, self.way_of(index, bridges));
+                let part = self.belts[index].surface.carry(centre, way_of(index, bridges));
                 motion.shift += part.shift * (area / total);
                 motion.turn += part.turn * (area / total);
             }
             return motion;
         }
-        if own.displacement == 0.0 {
+        if own.displacement + slid == 0.0 {
             return Motion::NONE;
         }
         let bridges = own.transfer_slip > 0.0 && self.standing(block, belt).iter().any(|(at, _)| *at != belt);
-        own.surface.carry(centre, self.way_of(belt, bridges))
+        own.surface.carry(centre, way_of(belt, bridges))
     }
 
-    /// How far a belt takes a part that stands on it, and on another if it `bridges`.
-    fn way_of(&self, belt: usize, bridges: bool) -> f64 {
+    /// How far a belt takes a part that stands on it, and on another if it `bridges`; that has `slid` on it by so much, m.
+    fn way_of(&self, belt: usize, slid: f64, bridges: bool) -> f64 {
         let BeltBody { displacement, transfer_slip, .. } = self.belts[belt];
-        if bridges { (1.0 - transfer_slip) * displacement } else { displacement }
+        let way = displacement + slid;
+        if bridges { (1.0 - transfer_slip) * way } else { way }
     }
 
     /// The body of an id.

@@ -34,7 +34,7 @@ pub(super) use sleep::Listed;
 pub(super) use tally::kind_name;
 pub use tally::{Incident, IncidentKind, PartCounts};
 
-use crate::device::{Plate, Transfer};
+use crate::device::{Belt, Plate, Transfer};
 use crate::kinematics::{Beam, Block, DPose3, DVec2, DVec3, Surface, Upright};
 use crate::time::Instant;
 use tally::Tally;
@@ -47,8 +47,12 @@ pub(super) struct BeltBody {
     pub transfer: Transfer,
     /// Which share of its way on this belt a part loses that stands on another, too.
     pub transfer_slip: f64,
+    /// The steepest change of its speed that parts follow, m/s²; infinite where none slips.
+    pub grip: f64,
     /// How far it moved in this step, m on the centre line.
     pub displacement: f64,
+    /// How fast it was when the step began, and is now, m/s.
+    pub speeds: [f64; 2],
     /// The other belts that a part on this one may stand on too.
     pub neighbours: Vec<usize>,
     /// Whether nothing follows at its start, and at its end.
@@ -57,6 +61,14 @@ pub(super) struct BeltBody {
     pub clear: [Clear; 2],
     /// The unloading bays that take parts off it.
     pub drains: Vec<usize>,
+}
+
+impl BeltBody {
+    /// Takes over how a device has moved.
+    pub fn follow(&mut self, belt: &Belt) {
+        let Belt { displacement, speeds, transfer_slip, grip, .. } = *belt;
+        (self.displacement, self.speeds, self.transfer_slip, self.grip) = (displacement, speeds, transfer_slip, grip);
+    }
 }
 
 /// A pusher's plate, as parts see it.
@@ -156,6 +168,7 @@ impl Floor {
         self.handled.clear();
         self.hold();
         self.push();
+        self.slide(seconds);
         self.carry();
         self.collide();
         self.rest(seconds);

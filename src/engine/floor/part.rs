@@ -1,5 +1,6 @@
 //! Parts: boxes and pallets, what each stands on, and what stands on it.
 
+use crate::device::law::follower::{Slider, Stretch};
 use crate::kinematics::{Block, Bounds, Motion, Upright};
 use crate::plant::PartKind;
 
@@ -44,6 +45,10 @@ pub(in crate::engine) struct Part {
     pub reach: Bounds,
     /// Where its group may move without waking anybody that it has not woken.
     pub cleared: Bounds,
+    /// How it slides on the belt that bears it.
+    pub slider: Slider,
+    /// How much further than that belt it goes in this step, m.
+    pub slid: f64,
     /// How far any of its points may still move until it has to be looked at what bears it, m.
     pub secure: f64,
     /// In which of the floor's steps it moved last, and how far any of its points has moved in that at most, m.
@@ -80,6 +85,8 @@ impl Parts {
             riders: Vec::new(),
             reach,
             cleared,
+            slider: Slider::default(),
+            slid: 0.0,
             secure: 0.0,
             last_moved: (self.step, 0.0),
         };
@@ -117,8 +124,15 @@ impl Parts {
         self.leave(slot);
         let part = self.get_mut(slot);
         part.support = support;
+        (part.slider, part.slid) = (Slider::default(), 0.0);
         part.secure = 0.0;
         self.join(slot, support);
+    }
+
+    /// How the part in `slot` slides while the belt that bears it, where friction gives it at most `grip`, does a stretch.
+    pub fn slide(&mut self, slot: Slot, grip: f64, stretch: &Stretch) {
+        let part = self.get_mut(slot);
+        part.slid = part.slider.ride(grip, stretch) - stretch.way;
     }
 
     fn join(&mut self, slot: Slot, support: Support) {

@@ -56,7 +56,7 @@ impl Floor {
         }
         let surface = &self.belts[belt].surface;
         let Along { station, offset } = surface.locate(part.block.upright().place.truncate());
-        let forwards = self.belts[belt].displacement >= 0.0;
+        let forwards = self.belts[belt].displacement + part.slid >= 0.0;
         if self.take(slot, belt, Passage { before: surface.locate(from).station, station, forwards }) {
             return;
         }

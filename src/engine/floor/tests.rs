@@ -19,7 +19,9 @@ fn belt(shape: Shape, x: f64, y: f64, yaw: f64) -> BeltBody {
         surface,
         transfer: Transfer::Most,
         transfer_slip: 0.0,
+        grip: f64::INFINITY,
         displacement: 0.0,
+        speeds: [0.0; 2],
         neighbours: Vec::new(),
         open: [true; 2],
         drains: Vec::new(),
@@ -117,6 +119,39 @@ fn a_part_moves_with_its_belt() {
     let slot = box_at(&mut floor, 0.5, 0.1);
     run(&mut floor, 100, &[1e-3]);
     check_place(&floor, slot, 0.6, 0.1, 0.0);
+}
+
+/// A belt that goes up to 0.5 m/s within 0.25 s, and parts that follow half as steeply: one that was there loses ½·0.5·(0.5 − 0.25) m, one that
+/// was put there half way up a quarter of that. Where the belt then stops at once both slide on by ½·0.5²/1 m.
+#[test]
+fn parts_slide_each_by_itself() {
+    let mut floor = floor(vec![straight(0.0, 0.0, 4.0, 0.0)]);
+    floor.belts[0].grip = 1.0;
+    let move_belt = |floor: &mut Floor, from: f64, to: f64, seconds: f64| {
+        let steps = (seconds * 1e3).round();
+        let speed = |step: f64| from + (to - from) * step / steps;
+        for step in 0..steps as u32 {
+            let speeds = [speed(f64::from(step)), speed(f64::from(step + 1))];
+            floor.belts[0].speeds = speeds;
+            run(floor, 1, &[0.5e-3 * (speeds[0] + speeds[1])]);
+        }
+    };
+    let first = box_at(&mut floor, 0.5, 0.0);
+    move_belt(&mut floor, 0.0, 0.25, 0.125);
+    let second = box_at(&mut floor, 2.0, 0.0);
+    move_belt(&mut floor, 0.25, 0.5, 0.125);
+    move_belt(&mut floor, 0.5, 0.5, 0.75);
+    check_place(&floor, first, 0.5 + 0.4375 - 0.0625, 0.0, 0.0);
+    check_place(&floor, second, 2.0 + 0.4375 - 0.015625 - 0.015625, 0.0, 0.0);
+    floor.belts[0].speeds = [0.5, 0.0];
+    run(&mut floor, 1, &[0.0]);
+    move_belt(&mut floor, 0.0, 0.0, 1.0);
+    for (slot, start) in [(first, 0.875), (second, 2.40625)] {
+        let slid = place(&floor, slot).x - start;
+        // The step in which it stopped is one at an even deceleration.
+        assert!((slid - 0.125).abs() < 5e-4, "{slid}");
+        assert_eq!(floor.parts.get(slot).slider.velocity(), None);
+    }
 }
 
 #[test]

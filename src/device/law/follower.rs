@@ -9,7 +9,7 @@ const SAME_SPEED: f64 = 1e-12;
 
 /// A body that is dragged along, at rest to begin with.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Follower {
+pub struct Follower {
     /// The steepest change of its speed that friction gives, m/s².
     limit: f64,
     velocity: f64,
@@ -59,6 +59,46 @@ impl Follower {
     }
 }
 
+/// How a belt moved for a while, its speed changing evenly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// m.
+    pub way: f64,
+    /// Its speed when that began and when it ended, m/s.
+    pub speeds: [f64; 2],
+    /// s.
+    pub span: f64,
+}
+
+/// What a part that lies on a belt does there: it goes with it, or slides because the belt changed its speed more steeply than
+/// friction bears. One that was put there, wherever it came from, goes with it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slider {
+    /// The part's own speed while it slides, m/s.
+    velocity: Option<f64>,
+}
+
+impl Slider {
+    /// The part's own speed while it slides, m/s.
+    pub fn velocity(&self) -> Option<f64> {
+        self.velocity
+    }
+
+    /// How far the part goes while its belt does a `stretch`, m, where friction gives it at most `grip`, m/s²; infinite where
+    /// nothing slips.
+    pub fn ride(&mut self, grip: f64, stretch: &Stretch) -> f64 {
+        let Stretch { way, speeds: [from, to], span } = *stretch;
+        if grip.is_infinite() {
+            self.velocity = None;
+            return way;
+        }
+        let mut follower = Follower { limit: grip, velocity: self.velocity.unwrap_or(from) };
+        let gone = follower.follow(way, from, to, span);
+        self.velocity = Some(follower.velocity).filter(|own| (own - to).abs() >= SAME_SPEED);
+        gone
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -74,6 +114,25 @@ mod tests {
         assert!((first - 0.0625).abs() < 1e-15 && (fast.velocity() - 0.5).abs() < 1e-15);
         let second = fast.follow(0.75, 1.0, 1.0, 0.75);
         assert!((second - (0.1875 + 0.5)).abs() < 1e-15 && fast.velocity() == 1.0, "{second}");
+    }
+
+    /// Up to 1 m/s within 0.5 s, and half that from the friction: one that was there is 0.5 m behind when it has caught up; one that was put when
+    /// the belt ran at 0.5 m/s goes on from there, and loses a quarter of that.
+    #[test]
+    fn parts_of_one_belt_slide_each_by_itself() {
+        let stretch = |way, speeds, span| Stretch { way, speeds, span };
+        let ride = |slider: &mut Slider, stretches: &[Stretch]| -> f64 {
+            stretches.iter().map(|stretch| slider.ride(1.0, stretch)).sum()
+        };
+        let (mut first, mut second) = (Slider::default(), Slider::default());
+        let start = stretch(0.0625, [0.0, 0.5], 0.25);
+        let rest = [stretch(0.1875, [0.5, 1.0], 0.25), stretch(0.5, [1.0, 1.0], 0.5)];
+        let behind = [ride(&mut first, &[&[start], &rest[..]].concat()), ride(&mut second, &rest)];
+        assert_eq!(behind, [0.75 - 0.25, 0.6875 - 0.0625]);
+        assert_eq!([first, second], [Slider::default(); 2]);
+        let mut held = Slider::default();
+        assert_eq!((held.ride(f64::INFINITY, &start), held.velocity()), (0.0625, None));
+        assert_eq!((held.ride(1.0, &start), held.velocity()), (0.03125, Some(0.25)));
     }
 
     #[test]
