@@ -191,7 +191,9 @@ fn reading_with_slip(
         let slipped = way.of_parts(grip, put);
         let reading = parts::assign(geometry, tracks, &|at| slipped.at(at));
         let off = off(&slipped).unwrap_or(f64::INFINITY);
-        Slipped { grip, are_put: !put.is_empty(), known: self::known(&reading), off, reading, way: slipped }
+        let known = self::known(&reading);
+        let others = reading.0.cuts.len() - known;
+        Slipped { grip, are_put: !put.is_empty(), known, others, off, reading, way: slipped }
     };
     let courses = [put, &[]].into_iter().flat_map(|put| GRIPS.map(|grip| try_out(grip, put)));
     let Some(best) = courses.min_by(Slipped::by_fit) else { return (plain, None) };
@@ -210,8 +212,9 @@ struct Slipped {
     grip: f64,
     /// Whether parts take the belt's speed where they are put.
     are_put: bool,
-    /// How many cuts are known.
+    /// How many cuts are known, and how many there are beside those.
     known: usize,
+    others: usize,
     /// See [`mismatch`].
     off: f64,
     reading: Reading,
@@ -221,7 +224,7 @@ struct Slipped {
 impl Slipped {
     /// The better first.
     fn by_fit(&self, other: &Slipped) -> std::cmp::Ordering {
-        other.known.cmp(&self.known).then(self.off.total_cmp(&other.off))
+        other.known.cmp(&self.known).then(self.others.cmp(&other.others)).then(self.off.total_cmp(&other.off))
     }
 }
 
