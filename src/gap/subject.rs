@@ -12,7 +12,7 @@ use super::floor::{Floor, step_of};
 use super::grid::median;
 use super::layout::Beside;
 use super::link;
-use super::overrides::Overrides;
+use super::overrides::{Overrides, as_modelled};
 use super::prediction::{Predicted, Prediction};
 use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::restarts::Restarts;
@@ -132,9 +132,9 @@ pub struct Subject {
     /// The instance's name, and the task's where it has several.
     pub name: String,
     pub kind: &'static KindDescriptor,
-    /// The nominal parameters, SI.
+    /// The nominal parameters, SI: as the model's own `parameter-error`s have them.
     pub parameters: Parameters,
-    /// What the model already adds to the nominal law.
+    /// What else the model already adds to the nominal law.
     pub effects: Vec<EffectSpec>,
     /// The device's reports that have a signal.
     pub signals: Vec<SignalInfo>,
@@ -181,12 +181,14 @@ impl Subject {
                 restarts: None,
             }
         });
+        let effects = effect::of_task(&instance.effects, &task.name, &tasks);
+        let (parameters, effects) = as_modelled(task.kind, &task.parameters, &instance.name, effects);
         Subject {
             id,
             name: id.name(plant),
             kind: task.kind,
-            parameters: task.parameters.clone(),
-            effects: effect::of_task(&instance.effects, &task.name, &tasks),
+            parameters,
+            effects,
             runs: runs.collect(),
             signals,
             bay: None,
