@@ -10,7 +10,9 @@
 //! 3. Where `r` is spread over the cycle there is no grid: the stamps are used as they are, and their spread goes into the
 //!    floor of what moves.
 //!
-//! A cycle without a line is one in which nothing changed: its value is the last one, and it counts like any other.
+//! A cycle without a line is one in which nothing changed: its value is the last one, and it counts like any other. Where most have none,
+//! because all that is reported are a few states, the cycle is about the shortest time between two stamps, and the one near that by which all of
+//! them lie alike.
 //!
 //! Source: the clean recordings of an independent simulation; the lateness there is |N(0, jitter²)|, and the rules are those
 //! that bring every clean signal of 16 recordings down to its rounding.
@@ -42,7 +44,8 @@ impl Grid {
     pub fn rebuild(stamps: &[f64]) -> Grid {
         // A machine that sends several messages in each cycle stamps it several times.
         let thinned = || rebuilt(&first_of_each(stamps)).filter(|grid| grid.fits(stamps));
-        rebuilt(stamps).or_else(thinned).unwrap_or_else(|| Grid::of_stamps(stamps))
+        let sparse = || rebuilt_about(stamps, cycle_of_few(stamps)?);
+        rebuilt(stamps).or_else(thinned).or_else(sparse).unwrap_or_else(|| Grid::of_stamps(stamps))
     }
 
     /// A grid that is known: the multiples of `step` from 0 to `ends`.
@@ -107,12 +110,49 @@ fn first_of_each(stamps: &[f64]) -> Vec<f64> {
     firsts
 }
 
+/// The cycle of which most have no stamp: near the shortest times between two, the one by which the stamps' phases agree best. (Of so many stamps
+/// that come anyhow, one in a hundred thousand sets agrees by chance as those of a grid must.)
+fn cycle_of_few(stamps: &[f64]) -> Option<f64> {
+    const ENOUGH: usize = 48;
+    /// How many of the shortest times are one cycle at least, and by how much they may differ.
+    const SHORTEST: usize = 4;
+    const ALIKE: f64 = 1.5;
+    /// How far the cycle may be from them: late stamps make some of them shorter.
+    const NEAR: f64 = 0.2;
+    /// From so many stamps it is known well enough to find it from all.
+    const MOST: usize = 400;
+    if stamps.len() < ENOUGH {
+        return None;
+    }
+    let stamps = &stamps[..stamps.len().min(MOST)];
+    let mut spacings = spacings(stamps);
+    spacings.sort_by(f64::total_cmp);
+    let shortest = *spacings.first().filter(|shortest| **shortest > 0.0)?;
+    let alike = &spacings[..spacings.partition_point(|spacing| *spacing < ALIKE * shortest)];
+    let about = median(alike).filter(|_| alike.len() >= SHORTEST)?;
+    let lasts = stamps[stamps.len() - 1] - stamps[0];
+    // A quarter of a turn from the first stamp to the last.
+    let step = 0.25 * about * about / lasts;
+    let most = (NEAR * about / step).ceil() as i64;
+    let agreement = |cycle: f64| {
+        let turns = stamps.iter().map(|stamp| std::f64::consts::TAU * (stamp - stamps[0]) / cycle);
+        let (sine, cosine) = turns.fold((0.0, 0.0), |(sine, cosine), turn| (sine + turn.sin(), cosine + turn.cos()));
+        sine.hypot(cosine)
+    };
+    let cycles = (-most..=most).map(|k| about + k as f64 * step);
+    cycles.map(|cycle| (agreement(cycle), cycle)).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, cycle)| cycle)
+}
+
 fn rebuilt(stamps: &[f64]) -> Option<Grid> {
+    rebuilt_about(stamps, median(&spacings(stamps)).filter(|cycle| *cycle > 0.0)?)
+}
+
+/// The grid whose cycle is about a `cycle`, s.
+fn rebuilt_about(stamps: &[f64], mut cycle: f64) -> Option<Grid> {
     if stamps.len() < LEAST_STAMPS {
         return None;
     }
     let first = stamps[0];
-    let mut cycle = median(&spacings(stamps)).filter(|cycle| *cycle > 0.0)?;
     let mut offset = 0.0;
     let mut error = 0.0;
     // From the first stamps to all of them, so that an error of the cycle is never counted up to a whole one.
@@ -227,6 +267,27 @@ mod tests {
         assert!(grid.fits(&stamps[100..200]));
         let index = grid.index(stamps[stamps.len() - 1]);
         assert_eq!(index, 2998);
+    }
+
+    /// States alone are reported, each some cycles after the other; what comes whenever it does has no grid.
+    #[test]
+    fn few_stamps_in_many_cycles_have_one_grid() {
+        for (cycle, sigma) in [(0.05, 0.0), (0.05, 1e-3), (0.01, 1e-3), (0.02, 1e-4)] {
+            let mut k = 3;
+            let numbers: Vec<usize> = std::iter::repeat_with(|| {
+                k += 1 + (late(k, 9.0) as usize).min(40);
+                k
+            })
+            .take(260)
+            .collect();
+            let stamps: Vec<f64> = numbers.iter().map(|k| 0.0123 + *k as f64 * cycle + late(*k, sigma)).collect();
+            let grid = Grid::rebuild(&stamps);
+            assert!(grid.is_rebuilt && (grid.cycle - cycle).abs() < 1e-5, "{cycle} {sigma}: {grid:?}");
+            assert!((grid.instants[0] - stamps[0]).abs() < 3.0 * sigma + 1e-9, "{cycle} {sigma}");
+        }
+        let mut anyhow: Vec<f64> = (0..260).map(|k| k as f64 * 0.2 + late(k, 0.1)).collect();
+        anyhow.sort_by(f64::total_cmp);
+        assert!(!Grid::rebuild(&anyhow).is_rebuilt);
     }
 
     #[test]
