@@ -121,6 +121,8 @@ fn cycle_of_few(stamps: &[f64]) -> Option<f64> {
     const NEAR: f64 = 0.2;
     /// From so many stamps it is known well enough to find it from all.
     const MOST: usize = 400;
+    /// Over more cycles than this so few stamps are spread by chance, or the shortest times lie within bunches of messages.
+    const LONGEST: f64 = 2e4;
     if stamps.len() < ENOUGH {
         return None;
     }
@@ -129,8 +131,8 @@ fn cycle_of_few(stamps: &[f64]) -> Option<f64> {
     spacings.sort_by(f64::total_cmp);
     let shortest = *spacings.first().filter(|shortest| **shortest > 0.0)?;
     let alike = &spacings[..spacings.partition_point(|spacing| *spacing < ALIKE * shortest)];
-    let about = median(alike).filter(|_| alike.len() >= SHORTEST)?;
     let lasts = stamps[stamps.len() - 1] - stamps[0];
+    let about = median(alike).filter(|about| alike.len() >= SHORTEST && lasts <= LONGEST * about)?;
     // A quarter of a turn from the first stamp to the last.
     let step = 0.25 * about * about / lasts;
     let most = (NEAR * about / step).ceil() as i64;
@@ -288,6 +290,9 @@ mod tests {
         let mut anyhow: Vec<f64> = (0..260).map(|k| k as f64 * 0.2 + late(k, 0.1)).collect();
         anyhow.sort_by(f64::total_cmp);
         assert!(!Grid::rebuild(&anyhow).is_rebuilt);
+        // Bunches of messages within a microsecond, for a minute: millions of cycles are not tried.
+        let bunches: Vec<f64> = anyhow.iter().flat_map(|at| [*at, at + 1e-6]).collect();
+        assert_eq!((cycle_of_few(&bunches), Grid::rebuild(&bunches).is_rebuilt), (None, false));
     }
 
     #[test]

@@ -170,7 +170,8 @@ const STILL_UNKNOWN: f64 = 0.5;
 const STILL_OFF: f64 = 0.5;
 
 /// The parts on a belt as its barriers show them; and where they slip so far that most are not known as if each were where the belt took it, or that
-/// those are far from where it took them, the way that they went. Parts that slip each take the belt's speed where they are put, what lies on a belt that slips does not.
+/// they are far from where it took them, the way that they went. Parts that slip each take the belt's speed where they are put, what lies on a belt
+/// that slips does not.
 fn reading_with_slip(
     geometry: &Geometry,
     tracks: [Option<&Track>; 2],
@@ -187,18 +188,20 @@ fn reading_with_slip(
     if could < 2 * ENOUGH_KNOWN || is_enough(known) && plainly_off.is_none() {
         return (plain, None);
     }
-    let try_out = |grip: f64, put: &[f64]| {
+    let try_out = |grip: f64, are_put: bool| {
+        let put = if are_put { put } else { &[] };
         let slipped = way.of_parts(grip, put);
         let reading = parts::assign(geometry, tracks, &|at| slipped.at(at));
         let off = off(&slipped).unwrap_or(f64::INFINITY);
         let known = self::known(&reading);
         let others = reading.0.cuts.len() - known;
-        Slipped { grip, are_put: !put.is_empty(), known, others, off, reading, way: slipped }
+        Slipped { grip, are_put, known, others, off, reading, way: slipped }
     };
-    let courses = [put, &[]].into_iter().flat_map(|put| GRIPS.map(|grip| try_out(grip, put)));
+    // Where nothing is put both are one.
+    let either = [true, false].into_iter().filter(|are_put| !are_put || !put.is_empty());
+    let courses = either.flat_map(|are_put| GRIPS.map(|grip| try_out(grip, are_put)));
     let Some(best) = courses.min_by(Slipped::by_fit) else { return (plain, None) };
-    let put = if best.are_put { put } else { &[] };
-    let nearer = NEARER.map(|factor| try_out(factor * best.grip, put));
+    let nearer = NEARER.map(|factor| try_out(factor * best.grip, best.are_put));
     let best = nearer.into_iter().fold(best, |best, other| if other.by_fit(&best).is_lt() { other } else { best });
     let unknown = |known: usize| could.saturating_sub(known) as f64;
     let explains = is_enough(best.known) && unknown(best.known) <= STILL_UNKNOWN * unknown(known);
