@@ -300,7 +300,7 @@ fn pair(kind: &KindDescriptor, effect: &EffectDescriptor, spec: &EffectSpec) -> 
 }
 
 /// Whether a port belongs to a component: it is the port's own name, or an axis whose name starts or ends the port's.
-fn is_of(port: &str, component: &str) -> bool {
+pub(crate) fn is_of(port: &str, component: &str) -> bool {
     port == component
         || port.strip_suffix("Target") == Some(component)
         || port.strip_prefix("actualPos") == Some(component)

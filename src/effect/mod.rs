@@ -95,6 +95,7 @@ use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
 use crate::value::{Quantity, Unit};
 
 pub use affected::Affected;
+pub(crate) use attach::is_of;
 pub use attach::{attach, build, of_task, parameters_of};
 pub use neighbours::{CARRIES_PARTS, SHARES_A_SUPPLY, moving_as_reported, neighbours, stranger};
 pub use page::page;

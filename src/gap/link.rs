@@ -4,15 +4,20 @@
 //! its link holds it up it arrives later, and waits for the next instant after that. In the engine a link's effect begins where the
 //! command acts; so the command is handed to it early enough to leave the link at the instant at which the task takes it up.
 //!
+//! What a link filters changes all the time, and the task takes up what has come through at each of its instants: a staircase, half a cycle
+//! behind. Such a filter is computed here, from when the commands were given, and the device is told its steps in place of the commands.
+//!
 //! Where parts come from is read off the barrier that sees them first. Where its link holds reports up, they came sooner.
 
 use std::sync::Arc;
 
+use super::recording::Stamped;
 use super::subject::Run;
 use super::task::Task;
 use super::world::{Script, Surrounding};
+use crate::effect;
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
-use crate::prototype::kind::KindDescriptor;
+use crate::prototype::kind::{KindDescriptor, PortDescriptor, PortType};
 
 /// How a link holds commands up.
 #[derive(Clone, Copy, Debug)]
@@ -59,29 +64,91 @@ fn held_on<'a>(place: EffectPlace, specs: impl Iterator<Item = &'a EffectSpec>) 
         .collect()
 }
 
+/// A run with its commands as they come to its task.
+pub(super) struct Handed {
+    pub run: Run,
+    /// Whether what its links filter is in the commands, so that the device is to be built without those filters.
+    pub is_filtered: bool,
+}
+
+/// Whether an effect is a filter of commands.
+pub(super) fn filters_commands(spec: &EffectSpec) -> bool {
+    spec.place == EffectPlace::CommandLink && spec.kind == "input-filter"
+}
+
 /// The run with its commands as the effects of `specs` on their links want them; `None` where nothing of that changes when one acts.
 pub(super) fn before_the_task<'a>(
     run: &Run,
     kind: &KindDescriptor,
-    specs: impl Iterator<Item = &'a EffectSpec>,
-) -> Option<Run> {
+    specs: impl Iterator<Item = &'a EffectSpec> + Clone,
+) -> Option<Handed> {
     if run.task.every_s <= 0.0 {
         return None;
     }
-    let links = held_on(EffectPlace::CommandLink, specs);
-    if links.is_empty() {
+    let links = held_on(EffectPlace::CommandLink, specs.clone());
+    // A task that is faster than the steps of a filter in the engine adds nothing to it.
+    let has_room = run.task.every_s >= LEAST_TASK_S && !run.settles && run.settings.is_empty();
+    let filters: Vec<&EffectSpec> = specs.filter(|spec| has_room && filters_commands(spec)).collect();
+    if links.is_empty() && filters.is_empty() {
         return None;
     }
+    let is_of =
+        |component: Option<&str>, port: &PortDescriptor| component.is_none_or(|name| effect::is_of(port.name, name));
     let mut other = run.clone();
-    for (port, stamped) in &mut other.commands {
-        let name = kind.ports[*port].name;
-        let own = links.iter().filter(|(component, _)| component.is_none_or(|component| component == name));
+    other.commands.clear();
+    for (at, port) in kind.ports.iter().enumerate() {
+        let own = links.iter().filter(|(component, _)| is_of(*component, port));
         let held: Vec<Held> = own.map(|(_, held)| *held).collect();
-        stamped.at = handed(stamped.at, run.task, &held);
+        let given = run.commands.iter().filter(|(to, _)| *to == at).map(|(_, stamped)| *stamped);
+        let mut arrived: Vec<Stamped> = given.map(|given| Stamped { at: arrives(given.at, &held), ..given }).collect();
+        for filter in filters.iter().filter(|filter| is_of(filter.component.as_deref(), port)) {
+            let Some(ParameterValue::Number(time)) = filter.parameters.get("time_constant") else { continue };
+            let is_number = port.ty == PortType::Real;
+            arrived = if is_number { low_pass(&arrived, *time, (run.task, run.ends)) } else { stood(&arrived, *time) };
+        }
+        let handed = arrived.into_iter().map(|stamped| Stamped { at: handed(stamped.at, run.task, &held), ..stamped });
+        other.commands.extend(handed.map(|stamped| (at, stamped)));
     }
     other.commands.sort_by(|a, b| a.1.at.total_cmp(&b.1.at));
     other.task.every_s = 0.0;
-    Some(other)
+    Some(Handed { run: other, is_filtered: !filters.is_empty() })
+}
+
+/// Tasks of shorter cycles are not asked what they take up of a filter, s.
+const LEAST_TASK_S: f64 = 0.5e-3;
+
+/// What has come through a low-pass at each instant of a task until a recording `ends`, s: `y + time·dy/dt = x`, x the command that stands, 0 before the
+/// first.
+fn low_pass(commands: &[Stamped], time: f64, (task, ends): (Task, f64)) -> Vec<Stamped> {
+    const SETTLED: f64 = 1e-12;
+    let Some(first) = commands.first().filter(|_| time > 0.0) else { return commands.to_vec() };
+    let (mut input, mut output, mut since) = (0.0, 0.0, first.at);
+    let through = |input: f64, output: f64, span: f64| input + (output - input) * (-span / time).exp();
+    let mut commands = commands.iter().peekable();
+    let start = task.taken_up(first.at);
+    let count = ((ends - start) / task.every_s).max(0.0) as u32 + 1;
+    let mut passed: Vec<Stamped> = Vec::with_capacity(count as usize);
+    for k in 0..count {
+        let at = start + f64::from(k) * task.every_s;
+        while let Some(command) = commands.next_if(|command| command.at <= at) {
+            output = through(input, output, command.at - since);
+            (input, since) = (command.value, command.at);
+        }
+        let exit = through(input, output, at - since);
+        let value = if (exit - input).abs() < SETTLED { input } else { exit };
+        if passed.last().map_or(0.0, |last| last.value) != value {
+            passed.push(Stamped { at, value });
+        }
+    }
+    passed
+}
+
+/// What stands for a `time`, s, and then comes through.
+fn stood(commands: &[Stamped], time: f64) -> Vec<Stamped> {
+    let next = |at: usize| commands.get(at + 1).map_or(f64::INFINITY, |next| next.at);
+    let stands = |(at, command): (usize, &Stamped)| (next(at) - command.at > time).then_some(*command);
+    let long = commands.iter().enumerate().filter_map(stands);
+    long.map(|command| Stamped { at: command.at + time, ..command }).collect()
 }
 
 /// What surrounds a belt as it was, where the link of its `barriers` holds their reports up as `specs` say; `None` where it does not.
@@ -118,10 +185,14 @@ pub(super) fn before_the_report<'a>(
     Some(Arc::new(other))
 }
 
-/// When a command that is stamped `at` is handed to a link that holds it up so, s.
+/// When a command that is stamped `at` has passed a link that holds it up so, s.
+fn arrives(at: f64, held: &[Held]) -> f64 {
+    held.iter().fold(at, |at, held| held.later(at))
+}
+
+/// When it is handed to that link, for it to leave it when the task takes up what arrives `at`, s.
 fn handed(at: f64, task: Task, held: &[Held]) -> f64 {
-    let arrived = held.iter().fold(at, |at, held| held.later(at));
-    held.iter().rev().fold(task.taken_up(arrived), |at, held| held.sooner(at))
+    held.iter().rev().fold(task.taken_up(at), |at, held| held.sooner(at))
 }
 
 #[cfg(test)]
@@ -172,10 +243,30 @@ mod tests {
         for k in 0..40 {
             let at = 5.0 + 1.7e-4 * f64::from(k);
             let arrived = (at + 2.34e-2) * 1.001;
-            let left = (handed(at, task, &held) + 2.34e-2) * 1.001;
+            let left = (handed(arrives(at, &held), task, &held) + 2.34e-2) * 1.001;
             assert!((left - task.taken_up(arrived)).abs() < 1e-9, "{at}: {left}");
             assert!(left >= arrived - 1e-9 && left < arrived + 1e-3, "{at}: {left}");
             assert!((handed(at, task, &[]) - task.taken_up(at)).abs() < 1e-12);
         }
+    }
+
+    /// A command of 1 at 0.2004 s and of 0 at 0.2031 s, behind a filter of 10 ms, is what has come through by each next whole millisecond; a flag that
+    /// stands for less than its filter's time does not come through.
+    #[test]
+    fn a_task_takes_up_what_has_come_through_a_filter() {
+        let task = Task { every_s: 1e-3, phase_s: 0.0, ..Task::default() };
+        let given = [Stamped { at: 0.2004, value: 1.0 }, Stamped { at: 0.2031, value: 0.0 }];
+        let passed = low_pass(&given, 0.01, (task, 1.0));
+        let at = |k: usize| 1.0 - (-(0.2 + 1e-3 * k as f64 - 0.2004) / 0.01).exp();
+        for (k, stamped) in passed.iter().take(3).enumerate() {
+            assert!((stamped.at - 0.201 - 1e-3 * k as f64).abs() < 1e-9, "{stamped:?}");
+            assert!((stamped.value - at(k + 1)).abs() < 1e-9, "{stamped:?}");
+        }
+        let most = 1.0 - (-(0.2031 - 0.2004) / 0.01_f64).exp();
+        assert!((passed[3].value - most * (-0.0009 / 0.01_f64).exp()).abs() < 1e-9, "{:?}", passed[3]);
+        assert_eq!(passed.last().map(|last| last.value), Some(0.0));
+        assert_eq!(stood(&given, 0.002).iter().map(|stamped| stamped.value).collect::<Vec<_>>(), [1.0, 0.0]);
+        let late = stood(&given, 0.003);
+        assert!(late.len() == 1 && late[0].value == 0.0 && (late[0].at - 0.2061).abs() < 1e-9, "{late:?}");
     }
 }

@@ -213,9 +213,13 @@ impl Subject {
                 true => None,
                 false => Some(self.set_up(&run.settings, effects, overrides)?),
             };
-            let device = set_up.as_ref().unwrap_or(&device);
-            let held_up = link::before_the_task(run, self.kind, self.effects.iter().chain(effects));
-            let run = held_up.as_ref().unwrap_or(run);
+            let handed = link::before_the_task(run, self.kind, self.effects.iter().chain(effects));
+            let unfiltered = match handed.as_ref().is_some_and(|handed| handed.is_filtered) {
+                true => Some(self.device_with(&|spec| !link::filters_commands(spec), effects, overrides)?),
+                false => set_up,
+            };
+            let device = unfiltered.as_ref().unwrap_or(&device);
+            let run = handed.as_ref().map_or(run, |handed| &handed.run);
             if let (Some(course), [track]) = (&run.course, run.tracks.as_slice()) {
                 let rises = |track: &Track| course.rises(device.boxed(), track);
                 return Ok(vec![track.as_ref().map_or(Predicted::Nothing, rises)]);
@@ -404,8 +408,18 @@ impl Subject {
 
     /// The device as the model has it, with `effects` beside its own.
     pub(super) fn device(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Box<dyn Device>, EffectError> {
+        self.device_with(&|_| true, effects, overrides)
+    }
+
+    /// The same with those of all effects that `is_there` says.
+    fn device_with(
+        &self,
+        is_there: &dyn Fn(&EffectSpec) -> bool,
+        effects: &[EffectSpec],
+        overrides: &Overrides,
+    ) -> Result<Box<dyn Device>, EffectError> {
         let is_own = |spec: &&EffectSpec| self.bay.is_none() || !Bay::is_of(&spec.kind);
-        let own = self.effects.iter().chain(effects.iter().filter(is_own)).cloned();
+        let own = self.effects.iter().chain(effects.iter().filter(is_own)).filter(|spec| is_there(spec)).cloned();
         let all: Vec<EffectSpec> = own.chain(overrides.effects()).collect();
         let mut device = effect::build(self.kind, &self.parameters, &self.instance, &all, 0)?;
         device.count_finely();
