@@ -328,6 +328,14 @@ impl Looks<'_> {
         Glance { beside: self.tangent.beside(self.bench, &glance.set), ..glance }
     }
 
+    /// The same with what it promises there, standing where it does.
+    pub fn promised(&self, glance: Glance) -> Option<Glance> {
+        let glance = self.again(glance);
+        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let promise = self.look(&near, &glance, &glance.at)?.promise;
+        Some(Glance { promise, ..glance })
+    }
+
     /// The candidate with the nuisances beside it; `is_near`: a part of the recordings has led it to where a few steps are enough.
     pub fn fit_closely(&self, glance: Glance, is_near: bool) -> Option<Trial> {
         if self.bench.is_rugged() {

@@ -138,16 +138,32 @@ fn left_by_parts(best: &Trial) -> f64 {
     }
 }
 
-/// Whether `trial` leaves no more of the gap than its law may, where friction, play or what goes with the load is among its effects, or else next to
-/// nothing of it and little beyond chance: what a further effect would explain of that is how real ones bend, when parts come and go, or an edge or two.
-pub fn is_as_good_as_explained(bench: &Bench<'_>, trial: &Trial, bare: &[f64]) -> bool {
+/// How much an answer so far leaves to a further effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// Next to nothing of the gap, and little beyond chance: an edge or two.
+    Nothing,
+    /// No more of it than a law leaves that is only nearly the machine's: how real joints bend, when parts come and go. Where a further effect is the
+    /// cause, it takes away nearly all of that.
+    Little,
+    /// What a further effect may explain a part of.
+    Much,
+}
+
+/// What `trial` leaves of the gap that is there with the nominal parameters at `bare`.
+pub fn left_by(bench: &Bench<'_>, trial: &Trial, bare: &[f64]) -> Left {
     let score = |set: &[Candidate], at: &[f64]| Some(bench.subject.score(&*bench.predict(set, at)?));
-    let Some((left, gap)) = score(&trial.set, &trial.at).zip(score(&[], bare)) else { return false };
+    if trial.set.is_empty() {
+        return Left::Much;
+    }
+    let Some((left, gap)) = score(&trial.set, &trial.at).zip(score(&[], bare)) else { return Left::Much };
     let share = misfit(&left) / misfit(&gap).max(1e-9);
-    let by_friction = if trial.set.iter().any(sticks) { LEAST_SHARE } else { 0.0 };
-    let by_law = by_friction.max(left_by_parts(trial));
-    let is_little = Standing::of(&left).excess(left.total) <= FAR_BEYOND * THRESHOLD;
-    by_law > 0.0 && share <= by_law || share <= LEAST_SHARE && is_little
+    let excess = Standing::of(&left).excess(left.total);
+    match () {
+        () if share > LEAST_SHARE.max(left_by_parts(trial)) => Left::Much,
+        () if excess <= FAR_BEYOND * THRESHOLD => Left::Nothing,
+        () => Left::Little,
+    }
 }
 
 /// Whether an effect rubs or has play. A friction that waves along the way takes up much of what is no friction, and one that warms up left a tenth of
@@ -456,10 +472,10 @@ mod tests {
         report_as(&mut subject, &recorded);
         let bench = Bench::new(&subject, nuisances(&subject, &nominal), &stop);
         let nothing = bench.nominal(&[]);
-        let trial = |set: &[Candidate], at: Vec<f64>| bench.trial(set, at).expect("a trial");
-        assert!(is_as_good_as_explained(&bench, &trial(&rubs, at(&bench)), &nothing));
-        assert!(!is_as_good_as_explained(&bench, &trial(&rubs, [vec![10.0], bench.nominal(&rubs)].concat()), &nothing));
-        assert!(!is_as_good_as_explained(&bench, &trial(&[], nothing.clone()), &nothing));
+        let left = |set: &[Candidate], at: Vec<f64>| left_by(&bench, &bench.trial(set, at).expect("a trial"), &nothing);
+        assert_eq!(left(&rubs, at(&bench)), Left::Nothing);
+        assert_eq!(left(&rubs, [vec![10.0], bench.nominal(&rubs)].concat()), Left::Much);
+        assert_eq!(left(&[], nothing.clone()), Left::Much);
     }
 
     /// Beside a force that explains nearly all of a gap, what a sensor rounds away is no gap of its own; more of it is.
@@ -473,16 +489,16 @@ mod tests {
         let set = [one("constant-force", None), one("offset", Some("position"))];
         let step = subject.runs[0].floors.iter().map(|floor| floor.step).fold(f64::INFINITY, f64::min);
         let stop = || false;
-        let mut is_explained = |off: f64| {
+        let mut left = |off: f64| {
             let at = [80.0, off * step];
             let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&set, &at).expect("a prediction");
             report_as(&mut subject, &recorded);
             let bench = Bench::new(&subject, Vec::new(), &stop);
             let alone = bench.trial(&set[..1], at[..1].to_vec()).expect("a trial");
-            is_as_good_as_explained(&bench, &alone, &[])
+            left_by(&bench, &alone, &[])
         };
         // A constant that goes on all along shows far beyond chance as soon as it moves what is rounded.
-        assert_eq!([0.3, 0.5, 0.55, 3.0].map(&mut is_explained), [true, true, false, false]);
+        assert_eq!([0.3, 0.5, 0.55, 3.0].map(&mut left), [Left::Nothing, Left::Nothing, Left::Little, Left::Little]);
     }
 
     /// Friction too little to show in any level by itself: where it grows to nine times what it was that is said, where it stays as it is

@@ -125,6 +125,10 @@ const WITNESSES: [&str; 11] = [
 pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<f64> {
     /// The square of a whitened distance that shows clearly: a start that moves the levels by much more says nothing of one.
     const CLEAR: f64 = 1000.0;
+    /// What a witness must promise on the first part of the recordings: of those whose part there has a mean of a third of `least` 993 of a thousand do.
+    const PROMISED_EARLY: f64 = 3.0;
+    /// Of its part of all moving blocks, how many that part must hold.
+    const ALIKE: f64 = 0.6;
     /// How many are fitted.
     const FITTED: usize = 3;
     let prediction = bench.predict(&[], &bare.at)?;
@@ -137,8 +141,28 @@ pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&
     let is_asked = |id: &str| is_asked(id) && WITNESSES.contains(&id);
     let mut library = candidates_beside(bench, bare, (&prediction, &score), &is_asked);
     library.retain(|candidate| candidate.place != EffectPlace::ReportLink && candidate.place != EffectPlace::Sensor);
-    let glances = library.into_par_iter().with_max_len(1).filter_map(|candidate| looks.glance(candidate));
-    let mut glances: Vec<Glance> = glances.filter(|glance| glance.promise > least).collect();
+    // Most are seen on the first part of the recordings to promise nothing, where the device moves there as it does later.
+    let subject = bench.subject.early(EARLY);
+    let there = bench.of_part(&subject);
+    let moves = |bench: &Bench<'_>| Some(bench.moving_blocks(&*bench.predict(&[], &bare.at)?) as f64);
+    let is_alike = moves(&there).zip(moves(bench)).is_some_and(|(first, all)| first >= ALIKE * EARLY * all);
+    let first = there.trial(&[], bare.at.clone()).filter(|_| is_alike);
+    let early = first.as_ref().and_then(|below| {
+        let tangent = Tangent::new(&there, below)?;
+        Some(Looks { bench: &there, below, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true })
+    });
+    let promising = |candidate| {
+        let glance = match &early {
+            Some(early) => {
+                let glance = early.glance(candidate)?;
+                let is_kept = glance.promise > PROMISED_EARLY * early.below.inflation();
+                is_kept.then(|| looks.promised(glance)).flatten()?
+            }
+            None => looks.glance(candidate)?,
+        };
+        Some(glance).filter(|glance| glance.promise > least)
+    };
+    let mut glances: Vec<Glance> = library.into_par_iter().with_max_len(1).filter_map(promising).collect();
     glances.sort_by(|a, b| b.promise.total_cmp(&a.promise));
     glances.truncate(FITTED);
     if glances.is_empty() {
