@@ -71,7 +71,10 @@ pub struct Hidden {
 impl Hidden {
     /// By how each of `moved` runs differs from `base`, its measure off by a standard deviation.
     pub fn new(moved: &[Seen], base: &Seen, signals: &[Signal], around: &Surroundings) -> Hidden {
-        let columns: Vec<Vec<f64>> = moved.iter().map(|moved| apart(moved, base, signals, around)).collect();
+        Hidden::of(moved.iter().map(|moved| apart(moved, base, signals, around)).collect())
+    }
+
+    fn of(columns: Vec<Vec<f64>>) -> Hidden {
         let count = columns.len();
         let squares = DMatrix::from_fn(count, count, |a, b| {
             let own = if a == b { 1.0 } else { 0.0 };
@@ -85,6 +88,21 @@ impl Hidden {
     pub fn with_bounds(self, at_bounds: &[Seen], base: &Seen, signals: &[Signal]) -> Hidden {
         let flags = at_bounds.iter().map(|bound| flags_differ(bound, base, signals).collect()).collect();
         Hidden { flags, ..self }
+    }
+
+    /// The same beside another effect: how levels that are as in `base` move with its numbers, each `small` standard deviations off, and what flags do with
+    /// each of them further off.
+    pub fn beside(
+        &self,
+        (levels, small): (&[Seen], f64),
+        flags: &[Seen],
+        base: &Seen,
+        (signals, around): (&[Signal], &Surroundings),
+    ) -> Hidden {
+        let along = |moved: &Seen| apart(moved, base, signals, around).into_iter().map(|apart| apart / small).collect();
+        let columns = self.columns.iter().cloned().chain(levels.iter().map(along)).collect();
+        let flags = flags.iter().map(|moved| flags_differ(moved, base, signals).collect());
+        Hidden { flags: self.flags.iter().cloned().chain(flags).collect(), ..Hidden::of(columns) }
     }
 
     /// The square of the distance of flags that differ so.
@@ -253,5 +271,25 @@ mod tests {
         let off = |values: &[f64]| distance(&seen(values), &base, &signals, &around, &hidden);
         // Along the measure next to nothing is left, across it all of it.
         assert!(off(&[0.0, 50.0, 0.0]) < 0.51 && (off(&[0.0, 50.0, 7.0]) - 7.0).abs() < 0.05);
+    }
+
+    /// What another effect would do with other numbers tells nobody of this one: of levels along them nothing is left, and of a flag what none of them does.
+    #[test]
+    fn beside_another_effect_counts_what_its_numbers_do_not_explain() {
+        let signal = |name: &str, kind: Kind| Signal { name: name.into(), kind, quantum: 12.0_f64.sqrt(), sigma: 0.0 };
+        let signals = [signal("Axis.position", Kind::Level), signal("Axis.arrived", Kind::Flag)];
+        let seen =
+            |values: &[[f64; 2]]| Seen { due: vec![0.0; 3], values: values.iter().map(|v| v.to_vec()).collect() };
+        let heard = Surroundings::draw(&mut crate::chance::Dice::new(1, 2));
+        let around = Surroundings { cycle: 0.01, noise: 0.0, noise_time: 1e-3, ..heard };
+        let base = seen(&[[0.0, 0.0], [0.0, 1.0], [0.0, 1.0]]);
+        let little = seen(&[[0.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
+        let much = seen(&[[0.0, 0.0], [90.0, 0.0], [0.0, 1.0]]);
+        let hidden = Hidden::new(&[], &base, &signals, &around);
+        let beside = hidden.beside((&[little], 0.02), &[much], &base, (&signals, &around));
+        let off = |values: &[[f64; 2]]| distance(&seen(values), &base, &signals, &around, &beside);
+        assert!(off(&[[0.0, 0.0], [50.0, 0.0], [0.0, 1.0]]) < 0.51);
+        assert!((off(&[[0.0, 0.0], [50.0, 0.0], [7.0, 1.0]]) - 7.0).abs() < 0.05);
+        assert!((off(&[[0.0, 0.0], [50.0, 0.0], [0.0, 0.0]]) - 12.0_f64.sqrt()).abs() < 0.05);
     }
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::catalogue::{Entry, Spot};
 use crate::chance::Dice;
-use crate::classes::{self, Alone};
+use crate::classes::{self, Alone, with_number};
 use crate::machine::{Machine, with_each_larger};
 use crate::magnitude::{Hidden, Magnitude, distance, levels_apart, noise_beyond};
 use crate::plant::{Command, Plant, Signal};
@@ -22,6 +22,11 @@ const TOLERANCE: f64 = 0.01;
 /// With this share of its strength an effect shows at most so much of what it shows.
 const WEAKER: f64 = 0.1;
 const SHOWS_LESS: f64 = 0.5;
+
+/// How far the numbers of another effect are moved, by their logarithms: by little where what is seen moves with them, and where it leaps by as much as
+/// that may take.
+const SMALL: f64 = 0.02;
+const OFF: [f64; 6] = [-0.7, -0.3, -0.1, 0.1, 0.3, 0.7];
 
 /// What is measured by how much a level scatters, and not by how it did.
 const NOISE: &str = "noise";
@@ -212,13 +217,39 @@ impl Bench {
                 }
             };
             let (signals, hidden) = (healthy.signals_of(device), self.hidden(device, healthy));
-            distance(&run(quirks), &run(others), &signals, &self.around, &hidden).powi(2)
+            let (there, base) = (run(quirks), run(others));
+            // What the others would do with other numbers tells nobody of these.
+            let numbers = self.numbers(others, device);
+            let moved = |off: f64| -> Vec<Seen> {
+                let by = |(at, number): &(usize, (&'static str, f64))| {
+                    let mut others = others.to_vec();
+                    others[*at] = with_number(&others[*at], *number, off);
+                    run(&others)
+                };
+                numbers.iter().map(by).collect()
+            };
+            let is_flag = |signal: &Signal| signal.kind.is_edge();
+            let levels = if signals.iter().all(is_flag) { Vec::new() } else { moved(SMALL) };
+            let flags = if signals.iter().any(is_flag) { OFF.map(&moved).concat() } else { Vec::new() };
+            let hidden = match numbers.is_empty() {
+                true => hidden,
+                false => Rc::new(hidden.beside((&levels, SMALL), &flags, &base, (&signals, &self.around))),
+            };
+            distance(&there, &base, &signals, &self.around, &hidden).powi(2)
         };
         let noisy = noises.into_iter().map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
         (devices.into_iter().map(squared).sum::<f64>() + noisy).sqrt()
     }
 
-    /// Whether each of these effects shows at least so much beside the others: a dead band may hide what a spring would show alone.
+    /// The numbers of those of `others` that are at `device`, with their places.
+    fn numbers(&self, others: &[Quirk], device: &str) -> Vec<(usize, (&'static str, f64))> {
+        let machine = self.design.machine();
+        let own = others.iter().enumerate().filter(|(_, other)| machine.reporter(&other.device) == device);
+        own.flat_map(|(at, other)| classes::numbers(other).map(move |number| (at, number))).collect()
+    }
+
+    /// Whether each of these effects shows at least so much beside the others, whatever the numbers of those are: a dead band may hide what a spring would
+    /// show alone, and a mass a little less of it a friction.
     pub fn show_beside(&self, quirks: &[Quirk], least: f64, healthy: &Run) -> bool {
         let is_alone = quirks.len() < 2;
         is_alone
@@ -294,27 +325,26 @@ impl Bench {
         (most.powi(-2) + others.sum::<f64>()).sqrt().recip()
     }
 
-    /// What nobody can tell from each of `quirks`, beside the others, in the training recording; where devices touch each other nothing is known
-    /// of that.
+    /// What nobody can tell from each of `quirks`, beside the others, in the training recording.
     pub fn classes(&self, quirks: &[Quirk]) -> Vec<Vec<Member>> {
-        if self.design.is_connected() {
-            return Vec::new();
-        }
-        let (plant, _) = self.watched(Part::Train, quirks, &self.scripts[Part::Train as usize]);
-        (0..quirks.len()).map(|at| self.class(&plant, quirks, at)).collect()
+        let (script, plant, _) = self.recorded(Part::Train, quirks);
+        (0..quirks.len()).map(|at| self.class((&script, &plant), quirks, at)).collect()
     }
 
-    /// What nobody can tell from the one at `at`, of those that `plant` ran with.
-    fn class(&self, plant: &Plant, quirks: &[Quirk], at: usize) -> Vec<Member> {
+    /// What nobody can tell from the one at `at`, of those that `plant` ran with under `script`.
+    fn class(&self, (script, plant): (&[Command], &Plant), quirks: &[Quirk], at: usize) -> Vec<Member> {
         let (built, quirk) = (&*self.built, &quirks[at]);
         let device = built.reporter(&quirk.device);
-        let script = &self.scripts[Part::Train as usize];
-        let own = |command: &&Command| command.signal.split_once('.').is_some_and(|(of, _)| of == device);
+        // A belt of a line moves what the one before it hands on; all others move by their commands alone.
+        let is_apart = !self.design.is_connected() || built.kind(device) != "Belt";
+        let is_its =
+            |command: &&Command| !is_apart || command.signal.split_once('.').is_some_and(|(of, _)| of == device);
         let alone = Alone {
             built,
             around: &self.around,
             device,
-            script: script.iter().filter(own).cloned().collect(),
+            is_apart,
+            script: script.iter().filter(is_its).cloned().collect(),
             others: [&quirks[..at], &quirks[at + 1..]].concat(),
             company: plant.company_of(device),
             seed: self.seed_of(Part::Train),

@@ -1,5 +1,6 @@
-//! One device of a case alone: the others do not touch it, so that only what it draws of a common supply has to be known of them.
+//! One device of a case alone: where the others do not touch it, only what it draws of a common supply has to be known of them.
 
+use super::candidate::numbers;
 use crate::chance::Dice;
 use crate::machine::{Machine, with_larger};
 use crate::plant::{Command, Signal};
@@ -13,7 +14,9 @@ pub struct Alone<'a> {
     pub around: &'a Surroundings,
     /// Its name in the plant.
     pub device: &'a str,
-    /// Its own commands, in order.
+    /// Whether no other device touches it; else all of them run, and it is what is listened to.
+    pub is_apart: bool,
+    /// Its own commands, in order; those of all devices where they touch it.
     pub script: Vec<Command>,
     /// What else is wrong with the machine, whatever is looked for.
     pub others: Vec<Quirk>,
@@ -38,10 +41,30 @@ pub struct Unknowns {
     pub measures: Vec<f64>,
     /// Of the filter of flags.
     pub filter: f64,
+    /// Of the numbers of what else is wrong with the device, in their order.
+    pub others: Vec<f64>,
+}
+
+impl Unknowns {
+    /// Of `measures` measures, the filter and the numbers of others, in this order.
+    pub fn of(off: &[f64], measures: usize) -> Unknowns {
+        let (own, rest) = off.split_at(measures.min(off.len()));
+        let filter = rest.first().copied().unwrap_or(0.0);
+        Unknowns { measures: own.to_vec(), filter, others: rest.get(1..).unwrap_or_default().to_vec() }
+    }
 }
 
 /// The standard deviation of what is known of the filter of flags, s: it is drawn up to 1 ms.
 const FILTER: f64 = 3e-4;
+
+/// What is done to a number of another effect by which nothing is known of it but its order of magnitude: a standard deviation makes e times as much of
+/// what it does.
+pub fn with_number(quirk: &Quirk, (name, neutral): (&str, f64), off: f64) -> Quirk {
+    let mut quirk = quirk.clone();
+    let own = quirk.parameters.iter_mut().filter(|(own, _)| own == name);
+    own.for_each(|(_, value)| *value = neutral + (*value - neutral) * off.exp());
+    quirk
+}
 
 impl Alone<'_> {
     /// Its signals, in the order of its readings.
@@ -56,12 +79,34 @@ impl Alone<'_> {
         if self.share > 0.0 { self.built.boxed().measures(self.device).len() } else { 0 }
     }
 
+    /// The numbers of what else is wrong with it: the effect's place among the others, its number's name and where that does nothing.
+    pub fn numbers(&self) -> Vec<(usize, (&'static str, f64))> {
+        let own = self.others.iter().enumerate().filter(|(_, other)| self.built.reporter(&other.device) == self.device);
+        own.flat_map(|(at, other)| numbers(other).map(move |number| (at, number))).collect()
+    }
+
+    /// The others, their numbers so far off.
+    fn others(&self, off: &[f64]) -> Vec<Quirk> {
+        let mut others = self.others.clone();
+        for ((at, number), off) in self.numbers().into_iter().zip(off).filter(|(_, off)| **off != 0.0) {
+            others[at] = with_number(&others[at], number, *off);
+        }
+        others
+    }
+
+    /// How many things are not known of it.
+    pub fn unknown(&self) -> usize {
+        self.measures() + 1 + self.numbers().len()
+    }
+
     /// What is heard of it until `end`, with these effects beside the others, and what is unknown so far off.
     pub fn hear(&self, quirks: &[Quirk], unknowns: &Unknowns, end: f64) -> Heard {
-        let quirks = &[&self.others, quirks].concat();
+        let quirks = &[self.others(&unknowns.others).as_slice(), quirks].concat();
         let shares: Vec<f64> = unknowns.measures.iter().map(|off| off * self.share).collect();
         let mut plant = with_larger(self.built, self.device, &shares).plant(quirks, self.seed).telling_parts();
-        plant.keep(self.device, self.company.clone());
+        if self.is_apart {
+            plant.keep(self.device, self.company.clone());
+        }
         let filter = (self.around.filter + FILTER * unknowns.filter).max(0.0);
         let around = Surroundings { filter, ..self.around.clone() };
         // Its own stream: chance is another than in the recording, and of the same kind.
@@ -72,17 +117,20 @@ impl Alone<'_> {
             .map(|at| (at - around.age).max(0.0))
             .collect();
         let mut commands = record::taken(&self.script, &plant, &around, end, &mut dice);
-        commands.retain(|command| command.signal.split_once('.').is_some_and(|(device, _)| device == self.device));
+        let is_its = |signal: &str| signal.split_once('.').is_some_and(|(device, _)| device == self.device);
+        commands.retain(|command| !self.is_apart || is_its(&command.signal));
         let signals = plant.signals.clone();
         let watched: Vec<bool> = signals.iter().map(|signal| record::passes(quirks, signal).next().is_some()).collect();
         let streams = plant.run(&commands, &samples, &watched, end);
         let streams: Vec<Stream> = streams
             .into_iter()
             .zip(&signals)
+            .filter(|(_, signal)| is_its(&signal.name))
             .map(|(stream, signal)| record::reported(stream, signal, quirks, &around, end, &mut dice))
             .collect();
         let values = samples.iter().map(|at| streams.iter().map(|stream| stream.at(*at)).collect()).collect();
-        let edges = streams.iter().zip(&signals).map(|(stream, signal)| match signal.kind.is_edge() {
+        let own = signals.iter().filter(|signal| is_its(&signal.name));
+        let edges = streams.iter().zip(own).map(|(stream, signal)| match signal.kind.is_edge() {
             // What comes after the last report nobody hears.
             true => stream
                 .points()

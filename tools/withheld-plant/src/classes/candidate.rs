@@ -65,8 +65,28 @@ pub fn is_random(effect: &str) -> bool {
 
 /// How many numbers an effect of the catalogue leaves to be found.
 pub fn freedom(truth: &Quirk) -> usize {
-    let entry = ENTRIES.iter().find(|entry| entry.effect == truth.effect && entry.place == truth.place);
-    entry.map_or(0, |entry| entry.laws.iter().filter(|law| is_free(law)).count())
+    laws(truth).filter(|law| is_free(law)).count()
+}
+
+fn laws(quirk: &Quirk) -> impl Iterator<Item = &'static Law> {
+    let is_it = |entry: &&Entry| entry.effect == quirk.effect && entry.place == quirk.place;
+    ENTRIES.iter().find(is_it).into_iter().flat_map(|entry| entry.laws)
+}
+
+/// The numbers of an effect that are to be found, each with the value at which it does nothing; 0 where its size says how much there is of it.
+pub fn numbers(quirk: &Quirk) -> impl Iterator<Item = (&'static str, f64)> {
+    laws(quirk).filter(|law| is_free(law)).map(|law| match law {
+        Law::About1(name, _) => (*name, 1.0),
+        Law::Wrong(_) => ("value", 0.0),
+        Law::Grows(name, _)
+        | Law::Either(name, _)
+        | Law::Below(name, _)
+        | Law::Above(name, _)
+        | Law::Share(name, _)
+        | Law::Is(name, _)
+        | Law::Within(name, ..)
+        | Law::OneOf(name, _) => (*name, 0.0),
+    })
 }
 
 fn is_free(law: &Law) -> bool {

@@ -9,7 +9,8 @@
 //! those that are well tell them far more closely than the one that is not: they stay as they are.
 //!
 //! An effect that leaves more numbers to be found than the true one is no member: whatever holds another as a special case would be in
-//! its class always. Of two effects the class of each is that beside the other, which stays as it is. What differs from run to run (noise, lost messages, a loose contact, jitter of a link) is alone against others of its sort:
+//! its class always. Of two effects the class of each is that beside the other, whose numbers nobody knows either: they are refitted as well, at a price of
+//! the square of how many times e they are off. What differs from run to run (noise, lost messages, a loose contact, jitter of a link) is alone against others of its sort:
 //! no two of them have the same statistics (white, in repeats, in zeros, in time), and none repeats a fixed effect's output. But a fixed effect that comes within 4.2 of what chance did would be
 //! in its class.
 
@@ -23,7 +24,8 @@ mod tests;
 
 use std::cell::OnceCell;
 
-pub use alone::Alone;
+pub use alone::{Alone, with_number};
+pub use candidate::numbers;
 
 use alone::Unknowns;
 use apart::Measure;

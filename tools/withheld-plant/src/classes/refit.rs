@@ -22,7 +22,7 @@ pub struct Goal<'a> {
     /// What the effect does, as [`differences`](Measure::differences) from the truth.
     healthy: Vec<f64>,
     owners: Vec<usize>,
-    /// By measure, then the filter: how the output moves with a standard deviation of each.
+    /// By measure, then the filter and the numbers of others: how the output moves with a standard deviation of each.
     columns: Vec<Vec<f64>>,
 }
 
@@ -42,6 +42,8 @@ const STEPS: usize = 8;
 const SEEN: f64 = 2.0;
 const SEEN_OF_REST: f64 = 0.02;
 const WIDENINGS: usize = 6;
+/// A small part of a standard deviation.
+const SMALL: f64 = 0.02;
 /// How many standard deviations what is unknown may be off.
 const MOST_OFF: f64 = 3.0;
 /// Starts from which the search goes on.
@@ -51,18 +53,17 @@ impl<'a> Goal<'a> {
     /// The output of `quirks` until `end`.
     pub fn new(device: &'a Alone<'a>, measure: &'a Measure, quirks: &'a [Quirk], end: f64) -> Goal<'a> {
         let truth = device.hear(quirks, &Unknowns::default(), end);
-        let count = device.measures();
-        let mut columns = Vec::new();
-        for place in 0..=count {
-            let mut unknowns = Unknowns { measures: vec![0.0; count], filter: 0.0 };
-            match unknowns.measures.get_mut(place) {
-                Some(measure) => *measure = 1.0,
-                None => unknowns.filter = 1.0,
-            }
-            columns.push(measure.differences(&truth, &device.hear(quirks, &unknowns, end)));
-        }
-        let unknowns = Unknowns { measures: vec![0.0; count], filter: 0.0 };
-        let healthy = measure.differences(&truth, &device.hear(&[], &unknowns, end));
+        let (measures, count) = (device.measures(), device.unknown());
+        let column = |place: usize| -> Vec<f64> {
+            // A number that may be twenty times as large moves the output along a line for a small part of that alone.
+            let small = if place > measures { SMALL } else { 1.0 };
+            let mut off = vec![0.0; count];
+            off[place] = small;
+            let there = device.hear(quirks, &Unknowns::of(&off, measures), end);
+            measure.differences(&truth, &there).into_iter().map(|apart| apart / small).collect()
+        };
+        let columns = (0..count).map(column).collect();
+        let healthy = measure.differences(&truth, &device.hear(&[], &Unknowns::default(), end));
         let owners = measure.owners(&truth);
         Goal { device, measure, quirks, end, truth, healthy, owners, columns }
     }
@@ -82,9 +83,7 @@ impl<'a> Goal<'a> {
 
     fn hear(&self, candidate: &Candidate, at: &[f64]) -> Heard {
         let (own, unknown) = at.split_at(candidate.free.len());
-        let count = unknown.len().saturating_sub(1);
-        let unknowns =
-            Unknowns { measures: unknown[..count].to_vec(), filter: unknown.get(count).copied().unwrap_or(0.0) };
+        let unknowns = Unknowns::of(unknown, self.device.measures());
         self.device.hear(&[self.device.built.fitted(candidate.at(own))], &unknowns, self.end)
     }
 

@@ -35,6 +35,7 @@ impl Rig {
             built: &**built,
             around,
             device,
+            is_apart: true,
             script: script.clone(),
             others: self.others.clone(),
             company: Vec::new(),
@@ -168,6 +169,37 @@ fn beside_another_effect_a_class_is_that_of_one() {
     let rig = Rig { others: vec![at("sensor", switch)], ..Rig::new("Pusher", &script) };
     assert_eq!(rig.class(&slower, 9.0)[0], "direction-asymmetry at actuator");
     assert!(rig.distance(&slower, "off-delay", 9.0) > SAME);
+}
+
+/// A grip that builds up late, of a gripper that is told late, is as well one that is switched on later by both, and seen to end as late as it is told: where the
+/// other's numbers are unknown, a dead time is a delay of that one edge.
+#[test]
+fn of_two_delays_of_one_flag_each_may_be_another() {
+    let slow = at("process", quirk("Gripper", "vacuum-build-up", &[("time", 0.036)]));
+    let late = at("command-link", quirk("Gripper", "dead-time", &[("time", 0.055)]));
+    let beside = |other: &Quirk| Rig { others: vec![other.clone()], ..Rig::gripper() };
+    assert!(beside(&slow).class(&late, 6.0).contains(&"off-delay at sensor".to_owned()));
+    assert!(beside(&late).class(&slow, 6.0).contains(&"switch-on-delay at actuator".to_owned()));
+    let numbers = beside(&slow).alone().numbers();
+    assert_eq!(numbers, [(0, ("time", 0.0))]);
+    assert_eq!(with_number(&slow, numbers[0].1, 2.0_f64.ln()).value("time"), 0.072);
+}
+
+/// A belt of the line is listened to while all others run: by itself no box would ever come.
+#[test]
+fn a_belt_of_the_line_is_heard_with_its_boxes() {
+    let line = Site::Line.design(&[], 3);
+    let script = ["Conveyor3", "Conveyor4"].map(|belt| {
+        let told = [("velocityTarget", 0.5), ("motorDirection", 1.0)];
+        told.map(|(port, value)| Command { at: 0.1, signal: format!("{belt}.{port}"), value })
+    });
+    let rig = Rig { script: script.concat(), ..Rig::of(line.machine().boxed(), "Conveyor4", &[]) };
+    let edges = |is_apart: bool| {
+        let heard = Alone { is_apart, ..rig.alone() }.hear(&[], &Unknowns::default(), 4.0);
+        let barriers = rig.alone().signals().iter().position(|signal| signal.name.ends_with("lightBarrierA"));
+        heard.edges[barriers.expect("a barrier")].len()
+    };
+    assert!(edges(false) > edges(true), "{} {}", edges(false), edges(true));
 }
 
 /// A motor at several speeds for most of a minute, its encoder a seventh short: what a small step of the scale changes is less than counts are
