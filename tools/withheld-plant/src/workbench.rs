@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::catalogue::{Entry, Spot};
 use crate::chance::Dice;
-use crate::classes::{self, Alone, with_number};
+use crate::classes::{self, Alone, Number, SMALL, numbers_at, with_number};
 use crate::machine::{Machine, with_each_larger};
 use crate::magnitude::{Hidden, Magnitude, distance, levels_apart, noise_beyond};
 use crate::plant::{Command, Plant, Signal};
@@ -23,9 +23,7 @@ const TOLERANCE: f64 = 0.01;
 const WEAKER: f64 = 0.1;
 const SHOWS_LESS: f64 = 0.5;
 
-/// How far the numbers of another effect are moved, by their logarithms: by little where what is seen moves with them, and where it leaps by as much as
-/// that may take.
-const SMALL: f64 = 0.02;
+/// How far the numbers of another effect are moved, by their logarithms, where what is seen leaps with them.
 const OFF: [f64; 6] = [-0.7, -0.3, -0.1, 0.1, 0.3, 0.7];
 
 /// What is measured by how much a level scatters, and not by how it did.
@@ -219,13 +217,9 @@ impl Bench {
             let (signals, hidden) = (healthy.signals_of(device), self.hidden(device, healthy));
             let (there, base) = (run(quirks), run(others));
             // What the others would do with other numbers tells nobody of these.
-            let numbers = self.numbers(others, device);
+            let numbers = numbers_at(machine, others, device);
             let moved = |off: f64| -> Vec<Seen> {
-                let by = |(at, number): &(usize, (&'static str, f64))| {
-                    let mut others = others.to_vec();
-                    others[*at] = with_number(&others[*at], *number, off);
-                    run(&others)
-                };
+                let by = |number: &Number| run(&with_number(others, *number, off));
                 numbers.iter().map(by).collect()
             };
             let is_flag = |signal: &Signal| signal.kind.is_edge();
@@ -239,13 +233,6 @@ impl Bench {
         };
         let noisy = noises.into_iter().map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
         (devices.into_iter().map(squared).sum::<f64>() + noisy).sqrt()
-    }
-
-    /// The numbers of those of `others` that are at `device`, with their places.
-    fn numbers(&self, others: &[Quirk], device: &str) -> Vec<(usize, (&'static str, f64))> {
-        let machine = self.design.machine();
-        let own = others.iter().enumerate().filter(|(_, other)| machine.reporter(&other.device) == device);
-        own.flat_map(|(at, other)| classes::numbers(other).map(move |number| (at, number))).collect()
     }
 
     /// Whether each of these effects shows at least so much beside the others, whatever the numbers of those are: a dead band may hide what a spring would

@@ -57,13 +57,21 @@ impl Unknowns {
 /// The standard deviation of what is known of the filter of flags, s: it is drawn up to 1 ms.
 const FILTER: f64 = 3e-4;
 
-/// What is done to a number of another effect by which nothing is known of it but its order of magnitude: a standard deviation makes e times as much of
-/// what it does.
-pub fn with_number(quirk: &Quirk, (name, neutral): (&str, f64), off: f64) -> Quirk {
-    let mut quirk = quirk.clone();
-    let own = quirk.parameters.iter_mut().filter(|(own, _)| own == name);
+/// A number of one of several effects: the effect's place among them, the number's name and where it does nothing.
+pub type Number = (usize, (&'static str, f64));
+
+/// The numbers of those of `others` that show at `device`.
+pub fn numbers_at(machine: &dyn Machine, others: &[Quirk], device: &str) -> Vec<Number> {
+    let own = others.iter().enumerate().filter(|(_, other)| machine.reporter(&other.device) == device);
+    own.flat_map(|(at, other)| numbers(other).map(move |number| (at, number))).collect()
+}
+
+/// The same effects with a number so far off, of which nothing is known but its order of magnitude: a standard deviation makes e times as much of it.
+pub fn with_number(others: &[Quirk], (at, (name, neutral)): Number, off: f64) -> Vec<Quirk> {
+    let mut others = others.to_vec();
+    let own = others[at].parameters.iter_mut().filter(|(own, _)| own == name);
     own.for_each(|(_, value)| *value = neutral + (*value - neutral) * off.exp());
-    quirk
+    others
 }
 
 impl Alone<'_> {
@@ -79,19 +87,15 @@ impl Alone<'_> {
         if self.share > 0.0 { self.built.boxed().measures(self.device).len() } else { 0 }
     }
 
-    /// The numbers of what else is wrong with it: the effect's place among the others, its number's name and where that does nothing.
-    pub fn numbers(&self) -> Vec<(usize, (&'static str, f64))> {
-        let own = self.others.iter().enumerate().filter(|(_, other)| self.built.reporter(&other.device) == self.device);
-        own.flat_map(|(at, other)| numbers(other).map(move |number| (at, number))).collect()
+    /// The numbers of what else is wrong with it.
+    pub fn numbers(&self) -> Vec<Number> {
+        numbers_at(self.built, &self.others, self.device)
     }
 
     /// The others, their numbers so far off.
     fn others(&self, off: &[f64]) -> Vec<Quirk> {
-        let mut others = self.others.clone();
-        for ((at, number), off) in self.numbers().into_iter().zip(off).filter(|(_, off)| **off != 0.0) {
-            others[at] = with_number(&others[at], number, *off);
-        }
-        others
+        let moved = self.numbers().into_iter().zip(off).filter(|(_, off)| **off != 0.0);
+        moved.fold(self.others.clone(), |others, (number, off)| with_number(&others, number, *off))
     }
 
     /// How many things are not known of it.

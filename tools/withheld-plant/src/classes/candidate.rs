@@ -73,7 +73,8 @@ fn laws(quirk: &Quirk) -> impl Iterator<Item = &'static Law> {
     ENTRIES.iter().find(is_it).into_iter().flat_map(|entry| entry.laws)
 }
 
-/// The numbers of an effect that are to be found, each with the value at which it does nothing; 0 where its size says how much there is of it.
+/// The numbers of an effect that are to be found, each with the value at which it does nothing, where that is known; else 0, and its size
+/// is taken as a whole.
 pub fn numbers(quirk: &Quirk) -> impl Iterator<Item = (&'static str, f64)> {
     laws(quirk).filter(|law| is_free(law)).map(|law| match law {
         Law::About1(name, _) => (*name, 1.0),

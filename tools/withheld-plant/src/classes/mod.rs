@@ -24,8 +24,8 @@ mod tests;
 
 use std::cell::OnceCell;
 
-pub use alone::{Alone, with_number};
-pub use candidate::numbers;
+pub use alone::{Alone, Number, numbers_at, with_number};
+pub use refit::SMALL;
 
 use alone::Unknowns;
 use apart::Measure;

@@ -42,8 +42,8 @@ const STEPS: usize = 8;
 const SEEN: f64 = 2.0;
 const SEEN_OF_REST: f64 = 0.02;
 const WIDENINGS: usize = 6;
-/// A small part of a standard deviation.
-const SMALL: f64 = 0.02;
+/// A small part of a standard deviation: what is seen moves along a line with it.
+pub const SMALL: f64 = 0.02;
 /// How many standard deviations what is unknown may be off.
 const MOST_OFF: f64 = 3.0;
 /// Starts from which the search goes on.

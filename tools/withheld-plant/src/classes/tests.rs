@@ -182,7 +182,7 @@ fn of_two_delays_of_one_flag_each_may_be_another() {
     assert!(beside(&late).class(&slow, 6.0).contains(&"switch-on-delay at actuator".to_owned()));
     let numbers = beside(&slow).alone().numbers();
     assert_eq!(numbers, [(0, ("time", 0.0))]);
-    assert_eq!(with_number(&slow, numbers[0].1, 2.0_f64.ln()).value("time"), 0.072);
+    assert_eq!(with_number(&[slow], numbers[0], 2.0_f64.ln())[0].value("time"), 0.072);
 }
 
 /// A belt of the line is listened to while all others run: by itself no box would ever come.
