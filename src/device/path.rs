@@ -14,6 +14,7 @@
 use std::fmt;
 
 use super::law::SAME_INSTANT_S;
+use super::law::servo::Spring;
 use super::law::sum::Sum;
 use crate::plant::EffectPlace;
 
@@ -110,6 +111,21 @@ pub trait Stage: Send + Sync + fmt::Debug {
     /// The longest stretch that the stage bears, s: what it computes over a longer one would be off.
     fn stretch(&self) -> f64 {
         STRETCH_S
+    }
+
+    /// The longest stretch that the stage bears on an axis that is moved together with the spring that hangs on it, s.
+    fn leap(&self) -> f64 {
+        self.stretch()
+    }
+
+    /// The spring on which what the axis moves hangs behind it, if the axis feels it.
+    fn spring(&mut self) -> Option<&mut Spring> {
+        None
+    }
+
+    /// The same as [`motion`](Stage::motion), after a stretch in which the axis was moved together with its [`spring`](Stage::spring).
+    fn leapt(&mut self, motion: Motion, moment: Moment) -> Motion {
+        self.motion(motion, moment)
     }
 
     /// What a boolean sensor looks along has moved to `travel` (m or rad), for the [`signal`](Stage::signal) that follows.
@@ -334,6 +350,22 @@ impl Path {
         self.stages.iter().map(|stage| stage.stretch()).fold(f64::INFINITY, f64::min)
     }
 
+    /// See [`Stage::leap`]; the same of all.
+    fn leap(&self) -> f64 {
+        self.stages.iter().map(|stage| stage.leap()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// See [`Stage::spring`]: that of the first stage, which has the axis's own motion.
+    pub fn spring(&mut self) -> Option<&mut Spring> {
+        self.stages.first_mut()?.spring()
+    }
+
+    /// See [`Stage::leapt`]; the stages behind the first have what it passes on.
+    pub fn leapt(&mut self, motion: Motion, moment: Moment) -> Motion {
+        let Some((first, others)) = self.stages.split_first_mut() else { return motion };
+        others.iter_mut().fold(first.leapt(motion, moment), |motion, stage| stage.motion(motion, moment))
+    }
+
     /// See [`Stage::travelled`].
     pub fn travelled(&mut self, travel: f64) {
         self.stages.iter_mut().for_each(|stage| stage.travelled(travel));
@@ -366,6 +398,8 @@ pub struct Stages {
     shapes_effort: bool,
     /// The longest stretch that all bear, s.
     longest: f64,
+    /// The same of an axis that is moved together with its spring, where it has one and that is longer.
+    leap: Option<f64>,
     pub actuator: Path,
     pub mechanics: Path,
     pub transmission: Path,
@@ -390,6 +424,8 @@ impl Stages {
         self.has_any = true;
         self.shapes_effort = self.actuator.shapes_effort();
         self.longest = self.paths().iter().map(|path| path.stretch()).fold(f64::INFINITY, f64::min);
+        let leap = self.paths().iter().map(|path| path.leap()).fold(f64::INFINITY, f64::min);
+        self.leap = (self.transmission.spring().is_some() && leap > self.longest).then_some(leap);
         Ok(())
     }
 
@@ -466,15 +502,30 @@ impl Stages {
         if *rest <= 0.0 {
             return None;
         }
-        let until = self.next_change().map_or(f64::INFINITY, |at| at - self.now.value());
-        // A change that is due, or so near that time would not move, does not hold time up.
-        let ahead = |until: f64| if until > SAME_INSTANT_S { until } else { f64::INFINITY };
-        let span = rest.min(self.longest).min(ahead(until)).min(ahead(steady));
-        // What rounding leaves of the whole is no stretch of its own.
-        let span = if *rest - span < SAME_INSTANT_S { *rest } else { span };
+        let span = self.span(self.longest, *rest, steady);
         *rest -= span;
         self.now.add(span);
         Some(Moment { now: self.now.value(), span })
+    }
+
+    /// What the next stretch of `rest` would be if the axis were moved together with its spring; no time passes. `None` where that is no
+    /// longer than others.
+    pub fn leap(&self, rest: f64, steady: f64) -> Option<Moment> {
+        let longest = self.leap.filter(|_| rest > 0.0)?;
+        let span = self.span(longest, rest, steady);
+        let mut now = self.now;
+        now.add(span);
+        Some(Moment { now: now.value(), span })
+    }
+
+    /// How long a stretch of at most `longest` is.
+    fn span(&self, longest: f64, rest: f64, steady: f64) -> f64 {
+        let until = self.next_change().map_or(f64::INFINITY, |at| at - self.now.value());
+        // A change that is due, or so near that time would not move, does not hold time up.
+        let ahead = |until: f64| if until > SAME_INSTANT_S { until } else { f64::INFINITY };
+        let span = rest.min(longest).min(ahead(until)).min(ahead(steady));
+        // What rounding leaves of the whole is no stretch of its own.
+        if rest - span < SAME_INSTANT_S { rest } else { span }
     }
 
     /// See [`Stage::state`].

@@ -244,7 +244,20 @@ impl ServoAxis {
     fn advance_with_stages(&mut self, seconds: f64) {
         let mut stages = std::mem::take(&mut self.stages);
         let mut rest = seconds;
-        while let Some(moment) = stages.stretch(&mut rest, self.steady()) {
+        // What is left of a stretch in which the axis cannot be moved together with its spring.
+        let mut apart = 0.0;
+        while rest > 0.0 {
+            if apart <= 0.0
+                && let Some(moment) = stages.leap(rest, self.steady())
+            {
+                if self.leap(&mut stages, moment) {
+                    rest -= moment.span;
+                    continue;
+                }
+                apart = moment.span;
+            }
+            let Some(moment) = stages.stretch(&mut rest, self.steady()) else { break };
+            apart -= moment.span;
             if self.mode == Mode::Ideal {
                 self.motor = self.track(&mut stages, moment);
                 self.load = stages.transmission.motion(self.motor, moment);
@@ -260,6 +273,35 @@ impl ServoAxis {
             }
         }
         self.stages = stages;
+    }
+
+    /// Moves by the whole stretch that ends at `moment` together with the spring that the load hangs on; returns false, and moves
+    /// nothing, where something on the way keeps that from being one linear system.
+    fn leap(&mut self, stages: &mut Stages, moment: Moment) -> bool {
+        if self.mode == Mode::Ideal {
+            return false;
+        }
+        let start = Moment { now: moment.now - moment.span, span: moment.span };
+        self.exertion.bounds = servo_path::bounds(stages, &self.nominal, self.motion(), moment);
+        let piece = self.piece(stages, start);
+        self.close_loop(piece, stages, start);
+        let before = self.servo;
+        let ServoAxis { servo, nominal, exertion, transitions, .. } = self;
+        let Some(ahead) = (Way { servo, nominal, exertion, stages, transitions }).leap(moment) else { return false };
+        if self.piece(stages, moment) != piece {
+            self.servo = before;
+            if let Some(spring) = stages.transmission.spring() {
+                spring.ahead = ahead;
+            }
+            return false;
+        }
+        stages.pass_time(moment.span);
+        // What switches at the end of the stretch drives the next.
+        self.servo.torque = stages.actuator.switched(self.torque, moment);
+        self.motor = self.motion();
+        self.position_target.advance(moment.span);
+        self.load = stages.transmission.leapt(self.motor, moment);
+        true
     }
 
     /// Takes a command up at once, as far as that is possible.

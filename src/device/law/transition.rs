@@ -1,6 +1,7 @@
 //! The motion of a servo's loop over a span of a length that comes again and again: found once, and then a product.
 //!
-//! Where nothing limits the drive, position, velocity and integrator y = (x, v, i) follow y' = A·y + b with b constant, so that
+//! Where nothing limits the drive, or where it is at a limit all the time, position, velocity and integrator y = (x, v, i) follow
+//! y' = A·y + b with b constant, so that
 //!
 //! ```text
 //! y(t) = y(0) + Φ(t)·y'(0),   Φ(t) = ∫₀ᵗ exp(A·s) ds = Σ Aᵏ·tᵏ⁺¹ / (k + 1)!
@@ -9,17 +10,29 @@
 //! (C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Transactions on Automatic Control 23, 1978.)
 //! Φ depends on the loop and on t alone, and a machine is looked at and told at spans that hardly change.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use super::taylor::ORDER;
 
 /// How many spans are known at once: a command between two looks makes two, and a stage may have a loop of its own.
 const KNOWN: usize = 4;
 
-/// A linear loop and a span of time; what Φ depends on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Linear {
+/// A linear system that a drive moves, and a span of time: what Φ depends on. Its state has `STATES` components.
+pub trait System<const STATES: usize>: Copy + PartialEq {
     /// s, no longer than a series of [`ORDER`] is good for.
+    fn span(&self) -> f64;
+
+    /// A of y' = A·y + b.
+    fn matrix(&self) -> SMatrix<f64, STATES, STATES>;
+
+    /// By how much at most the demand of the drive changes for each unit by which a component of y does, at least 0.
+    fn demand(&self) -> SVector<f64, STATES>;
+}
+
+/// A servo's loop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Linear {
+    /// s.
     pub span: f64,
     /// The force that the loop takes back for each unit of position and of velocity, and what else opposes velocity.
     pub position_gain: f64,
@@ -28,45 +41,79 @@ pub(super) struct Linear {
     pub inertia: f64,
     /// 1 / the integrator's time, 1/s; 0 where there is none.
     pub reset: f64,
-    /// A bound of its rates, 1/s: the scale in which velocity and acceleration are compared.
-    pub rate: f64,
+    /// Whether the drive exerts what its loop demands, and not a constant force.
+    pub is_free: bool,
+}
+
+impl Linear {
+    /// What position, velocity and integrator add to the force that moves the axis.
+    pub(super) fn forces(&self) -> [f64; 3] {
+        let Linear { position_gain, velocity_gain, damping, .. } = *self;
+        if self.is_free { [-position_gain, -velocity_gain - damping, 1.0] } else { [0.0, -damping, 0.0] }
+    }
+
+    /// What they add to the rate of the integrator.
+    pub(super) fn resets(&self) -> [f64; 3] {
+        let Linear { position_gain, velocity_gain, reset, .. } = *self;
+        let of_force = if self.is_free { [-position_gain, -velocity_gain, 0.0] } else { [0.0, 0.0, -1.0] };
+        of_force.map(|force| force * reset)
+    }
+}
+
+impl System<3> for Linear {
+    fn span(&self) -> f64 {
+        self.span
+    }
+
+    fn matrix(&self) -> Matrix3<f64> {
+        let rows = [[0.0, 1.0, 0.0], self.forces().map(|force| force / self.inertia), self.resets()];
+        Matrix3::from_fn(|row, column| rows[row][column])
+    }
+
+    fn demand(&self) -> Vector3<f64> {
+        Vector3::new(self.position_gain, self.velocity_gain, 1.0)
+    }
 }
 
 /// What is known of one of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Known {
-    linear: Linear,
+struct Known<S, const STATES: usize> {
+    system: S,
     /// `None` after it was met for the first time: what comes once is not worth it.
-    transition: Option<Transition>,
+    transition: Option<Transition<STATES>>,
 }
 
-/// Φ of a loop over a span.
+/// Φ of a system over a span.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Transition {
-    integral: Matrix3<f64>,
-    /// How far the loop's demand moves within the span, at most, for each unit of [`Transition::size`] of y'(0).
-    spread: f64,
-    /// The scales of velocity, acceleration and the integrator's rate in that.
-    scales: Vector3<f64>,
+pub struct Transition<const STATES: usize> {
+    integral: SMatrix<f64, STATES, STATES>,
+    /// How far the demand moves within the span, at most, for each unit of the magnitudes of the components of y'(0).
+    reach: SVector<f64, STATES>,
 }
 
 /// The transitions of the spans that came last.
-#[derive(Clone, Debug, Default)]
-pub struct Transitions {
-    known: [Option<Known>; KNOWN],
+#[derive(Clone, Debug)]
+pub struct Transitions<S = Linear, const STATES: usize = 3> {
+    known: [Option<Known<S, STATES>>; KNOWN],
     oldest: usize,
 }
 
-impl Transitions {
-    /// The transition of `linear`, from the second time on that it is asked for.
-    pub(super) fn of(&mut self, linear: Linear) -> Option<&Transition> {
-        match self.known.iter().position(|known| known.as_ref().is_some_and(|known| known.linear == linear)) {
+impl<S: Copy, const STATES: usize> Default for Transitions<S, STATES> {
+    fn default() -> Self {
+        Transitions { known: [None; KNOWN], oldest: 0 }
+    }
+}
+
+impl<S: System<STATES>, const STATES: usize> Transitions<S, STATES> {
+    /// The transition of `system`, from the second time on that it is asked for.
+    pub fn of(&mut self, system: S) -> Option<&Transition<STATES>> {
+        match self.known.iter().position(|known| known.as_ref().is_some_and(|known| known.system == system)) {
             Some(place) => {
                 let known = self.known[place].as_mut()?;
-                Some(known.transition.get_or_insert_with(|| Transition::new(&linear)))
+                Some(known.transition.get_or_insert_with(|| Transition::new(&system)))
             }
             None => {
-                self.known[self.oldest] = Some(Known { linear, transition: None });
+                self.known[self.oldest] = Some(Known { system, transition: None });
                 self.oldest = (self.oldest + 1) % KNOWN;
                 None
             }
@@ -74,45 +121,33 @@ impl Transitions {
     }
 }
 
-impl Transition {
-    fn new(linear: &Linear) -> Transition {
-        let Linear { span, position_gain, velocity_gain, damping, inertia, reset, rate } = *linear;
-        let matrix = Matrix3::new(
-            0.0,
-            1.0,
-            0.0,
-            -position_gain / inertia,
-            -(velocity_gain + damping) / inertia,
-            1.0 / inertia,
-            -position_gain * reset,
-            -velocity_gain * reset,
-            0.0,
-        );
-        // Horner's rule from the smallest term on: Φ = t·(1 + A·t/2·(1 + A·t/3·(…))).
-        let one = Matrix3::identity();
-        let integral = (2..=ORDER).rev().fold(one, |sum, k| one + matrix * sum * (span / k as f64)) * span;
-        // Of y'(s) = exp(A·s)·y'(0), each component in its scale is at most exp(ν·s) times the largest at first, with ν the
-        // greatest row sum of A in those scales; the demand's rate is −gx·v − gv·a + di/dt.
-        let scales = Vector3::new(1.0, 1.0 / rate, 1.0 / (inertia * rate * rate));
-        let inverse = scales.map(f64::recip);
-        let growth = (Matrix3::from_diagonal(&scales) * matrix.abs() * inverse).max() * span;
-        let slope = Vector3::new(position_gain, velocity_gain, 1.0).dot(&inverse);
-        Transition { integral, spread: span * slope * growth.exp(), scales }
+impl<const STATES: usize> Transition<STATES> {
+    fn new(system: &impl System<STATES>) -> Self {
+        let (span, matrix) = (system.span(), system.matrix());
+        // Of y'(s) = exp(A·s)·y'(0), no component is larger than that of exp(|A|·s)·|y'(0)|, each by its magnitude.
+        let bound = integral(&matrix.abs(), span);
+        Transition { integral: integral(&matrix, span), reach: bound.tr_mul(&system.demand()) }
     }
 
     /// Whether a demand that may move by `margin` either way stays within that all along, where y'(0) is `slopes`.
-    pub fn keeps_within(&self, margin: f64, slopes: Vector3<f64>) -> bool {
-        self.spread * self.size(slopes) < margin
+    pub fn keeps_within(&self, margin: f64, slopes: SVector<f64, STATES>) -> bool {
+        self.farthest(slopes) < margin
     }
 
-    fn size(&self, slopes: Vector3<f64>) -> f64 {
-        slopes.component_mul(&self.scales).amax()
+    fn farthest(&self, slopes: SVector<f64, STATES>) -> f64 {
+        self.reach.dot(&slopes.abs())
     }
 
     /// What is added to y, where y'(0) is `slopes`.
-    pub fn change(&self, slopes: Vector3<f64>) -> Vector3<f64> {
+    pub fn change(&self, slopes: SVector<f64, STATES>) -> SVector<f64, STATES> {
         self.integral * slopes
     }
+}
+
+/// Φ(t) by Horner's rule from the smallest term on: t·(1 + A·t/2·(1 + A·t/3·(…))).
+fn integral<const STATES: usize>(matrix: &SMatrix<f64, STATES, STATES>, span: f64) -> SMatrix<f64, STATES, STATES> {
+    let one = SMatrix::identity();
+    (2..=ORDER).rev().fold(one, |sum, k| one + matrix * sum * (span / k as f64)) * span
 }
 
 #[cfg(test)]
@@ -129,7 +164,7 @@ mod tests {
         damping: 50.0,
         inertia: 20.0,
         reset: 10.0,
-        rate: 90.0,
+        is_free: true,
     };
 
     #[test]
@@ -162,7 +197,7 @@ mod tests {
         for slopes in
             [[0.5, -20.0, 300.0], [-0.1, 0.0, -5000.0], [0.0, 90.0, 0.0], [1.0, 90.0, -150_000.0]].map(Vector3::from)
         {
-            let greatest = whole.spread * whole.size(slopes);
+            let greatest = whole.farthest(slopes);
             let demand = |[x, v, i]: [f64; 3]| i - LOOP.position_gain * x - LOOP.velocity_gain * v;
             let moved = (1..=64).map(|part| {
                 let span = LOOP.span * f64::from(part) / 64.0;
