@@ -1,6 +1,6 @@
 //! What drives a belt: an inverter's ramp, and the drum that the belt may slip on.
 
-use crate::drive::Drive;
+use crate::drive::{Drive, supplied};
 use crate::quirk::Quirks;
 use crate::train::Train;
 
@@ -43,9 +43,14 @@ impl BeltDrive {
 
     /// Moves on by `span` until `now` under so many boxes; the belt's way, m.
     pub fn advance(&mut self, now: f64, span: f64, boxes: usize, others: usize) -> f64 {
-        let share = (1.0 - self.slower * boxes as f64).max(0.0) * self.supply.powi(others as i32);
+        let share = (1.0 - self.slower * boxes as f64).max(0.0) * supplied(self.supply, others);
         self.shaft += self.drive.advance(now, span, share);
         self.train.advance(span, self.shaft, self.drive.speed())
+    }
+
+    /// Whether it goes slower under boxes.
+    pub fn minds_load(&self) -> bool {
+        self.slower != 0.0
     }
 
     /// How fast the belt goes, m/s.

@@ -53,11 +53,12 @@ impl Plan {
         if let Some(xml) = bench.design.xml(conditions.tolerance()) {
             std::fs::write(folder.join(model), xml)?;
         }
-        for part in [Part::Train, Part::HeldOut] {
-            let (script, plant, seen) = bench.recorded(part, &quirks);
+        let train = bench.recorded(Part::Train, &quirks);
+        let held_out = bench.recorded(Part::HeldOut, &quirks);
+        for (part, (script, plant, seen)) in [(Part::Train, &train), (Part::HeldOut, &held_out)] {
             let file = std::fs::File::create(folder.join(part.file()))?;
             let seed = bench.seed_of(part);
-            record::write(io::BufWriter::new(file), model, &script, &seen, &plant, &bench.around, seed)?;
+            record::write(io::BufWriter::new(file), model, script, seen, plant, &bench.around, seed)?;
         }
         let case = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let magnitude = match self.sort {
@@ -67,7 +68,7 @@ impl Plan {
         };
         let shows = magnitude == Magnitude::Clear || magnitude == Magnitude::Gross;
         let is_classed = shows && self.sort != Sort::Outside && !conditions.classless;
-        let mut classes = if is_classed { bench.classes(&quirks) } else { Vec::new() };
+        let mut classes = if is_classed { bench.classes(&quirks, (&train.0, &train.1)) } else { Vec::new() };
         let class = if quirks.len() == 1 { classes.pop().unwrap_or_default() } else { Vec::new() };
         let takes =
             [Part::Train, Part::HeldOut].into_iter().filter_map(|part| bench.take(part, &quirks, model)).collect();

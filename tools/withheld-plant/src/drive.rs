@@ -10,6 +10,11 @@ use crate::switch::Delay;
 /// Another value of the speed is none, m/s or rad/s.
 const SAME: f64 = 1e-12;
 
+/// What is left of a supply of which each of `others` leaves so much: nearly always all, and it is asked for at each step.
+pub fn supplied(share: f64, others: usize) -> f64 {
+    if share == 1.0 { 1.0 } else { share.powi(others as i32) }
+}
+
 /// A ramped drive and what is wrong with it.
 #[derive(Clone, Debug)]
 pub struct Drive {

@@ -24,6 +24,11 @@ pub trait Machine {
     fn reporter<'a>(&'a self, device: &'a str) -> &'a str {
         device
     }
+    /// The devices that have to run so that the one called `device` does what it does among all, itself among them, where it is known what the others
+    /// hand on to them.
+    fn about(&self, device: &str) -> Vec<String> {
+        vec![device.to_owned()]
+    }
     /// What the rig calls a device of the kind of the one called `device`.
     fn kind(&self, device: &str) -> String;
     /// It as a rig, if it is one.

@@ -19,6 +19,8 @@
 //! they are before they are rounded, as levels are: what rounding leaves unsure is in their unit. Of flags, which have no slope, those reports
 //! count in which the run differs from one of the machine with a measure at a bound of its tolerance, whichever of these runs comes nearest.
 
+use std::rc::Rc;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use serde::{Deserialize, Serialize};
 
@@ -94,12 +96,13 @@ impl Hidden {
     /// each of them further off.
     pub fn beside(
         &self,
-        (levels, small): (&[Seen], f64),
-        flags: &[Seen],
+        (levels, small): (&[Rc<Seen>], f64),
+        flags: &[Rc<Seen>],
         base: &Seen,
         (signals, around): (&[Signal], &Surroundings),
     ) -> Hidden {
-        let along = |moved: &Seen| apart(moved, base, signals, around).into_iter().map(|apart| apart / small).collect();
+        let along =
+            |moved: &Rc<Seen>| apart(moved, base, signals, around).into_iter().map(|apart| apart / small).collect();
         let columns = self.columns.iter().cloned().chain(levels.iter().map(along)).collect();
         let flags = flags.iter().map(|moved| flags_differ(moved, base, signals).collect());
         Hidden { flags: self.flags.iter().cloned().chain(flags).collect(), ..Hidden::of(columns) }
@@ -286,9 +289,12 @@ mod tests {
         let little = seen(&[[0.0, 0.0], [2.0, 1.0], [0.0, 1.0]]);
         let much = seen(&[[0.0, 0.0], [90.0, 0.0], [0.0, 1.0]]);
         let hidden = Hidden::new(&[], &base, &signals, &around);
-        let beside = hidden.beside((&[little], 0.02), &[much], &base, (&signals, &around));
+        let beside = hidden.beside((&[Rc::new(little)], 0.02), &[Rc::new(much)], &base, (&signals, &around));
         let off = |values: &[[f64; 2]]| distance(&seen(values), &base, &signals, &around, &beside);
         assert!(off(&[[0.0, 0.0], [50.0, 0.0], [0.0, 1.0]]) < 0.51);
+        // It never counts more than by itself.
+        let alone = distance(&seen(&[[0.0, 0.0], [50.0, 0.0], [7.0, 0.0]]), &base, &signals, &around, &hidden);
+        assert!(off(&[[0.0, 0.0], [50.0, 0.0], [7.0, 0.0]]) < alone);
         assert!((off(&[[0.0, 0.0], [50.0, 0.0], [7.0, 1.0]]) - 7.0).abs() < 0.05);
         assert!((off(&[[0.0, 0.0], [50.0, 0.0], [0.0, 0.0]]) - 12.0_f64.sqrt()).abs() < 0.05);
     }

@@ -26,6 +26,7 @@ mod plant;
 mod ports;
 mod pusher;
 mod quirk;
+mod recent;
 mod record;
 mod rig;
 mod robot;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::drive::Drive;
+use crate::drive::{Drive, supplied};
 use crate::plant::Device;
 use crate::quirk::{Quirk, Quirks};
 use crate::train::Train;
@@ -61,7 +61,7 @@ impl Device for Motor {
     }
 
     fn advance(&mut self, now: f64, span: f64, others: usize) {
-        self.shaft += self.drive.advance(now, span, self.supply.powi(others as i32));
+        self.shaft += self.drive.advance(now, span, supplied(self.supply, others));
         let speed = self.drive.speed();
         self.train.advance(span, self.shaft, speed);
         if let Some((above, rate)) = self.skips

@@ -20,6 +20,32 @@ pub trait Device: fmt::Debug + Send {
     fn moving(&self) -> usize;
     /// Its counters tell parts of a count from now on: what a distance is measured in, whose unit is what rounding leaves unsure.
     fn tell_parts(&mut self) {}
+    /// Every part that one belt has handed on to the next, in order.
+    fn handed_on(&self) -> Vec<Entry> {
+        Vec::new()
+    }
+    /// Only the devices `kept` are there: what other belts hand on to theirs comes as it did in a run of all.
+    fn confine(&mut self, _kept: &[String], _entries: &[Entry]) {}
+}
+
+/// A part that came from one belt onto the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    pub at: f64,
+    /// The next belt, by its place among the plant's belts.
+    pub belt: usize,
+    /// Where its centre lay then, along and across, and half its length, m.
+    pub place: f64,
+    pub across: f64,
+    pub half: f64,
+}
+
+/// What the rest of a plant did in a run of all: what has to be known of it where a few devices run without it.
+#[derive(Clone, Debug, Default)]
+pub struct Rest {
+    /// How many of its drives moved, from when on.
+    pub company: Vec<(f64, usize)>,
+    pub entries: Vec<Entry>,
 }
 
 /// What a report is, and how its sensor scatters.
@@ -82,6 +108,8 @@ pub struct Plant {
     company: Vec<(f64, usize)>,
     /// So many of those instants have come.
     come: usize,
+    /// How many drives of each device move at the step under way.
+    moving: Vec<usize>,
     /// How many drives of each device moved, from when on: as it has run so far.
     pub moved: Vec<(f64, Vec<usize>)>,
 }
@@ -94,20 +122,33 @@ impl Plant {
         signals: Vec<Signal>,
         quirks: &[Quirk],
     ) -> Plant {
-        Plant { devices, commands, signals, quirks: quirks.to_vec(), company: Vec::new(), come: 0, moved: Vec::new() }
+        Plant {
+            devices,
+            commands,
+            signals,
+            quirks: quirks.to_vec(),
+            company: Vec::new(),
+            come: 0,
+            moving: Vec::new(),
+            moved: Vec::new(),
+        }
     }
 
-    /// How many drives besides those of `device` moved, from when on, as it has run so far.
-    pub fn company_of(&self, device: &str) -> Vec<(f64, usize)> {
-        let own = self.devices.iter().position(|(name, _)| name == device).unwrap_or_default();
-        self.moved.iter().map(|(from, moved)| (*from, moved.iter().sum::<usize>() - moved[own])).collect()
+    /// What all devices but `kept` did, as it has run so far.
+    pub fn rest_of(&self, kept: &[String]) -> Rest {
+        let is_rest: Vec<bool> = self.devices.iter().map(|(name, _)| !kept.contains(name)).collect();
+        let count =
+            |moved: &[usize]| moved.iter().zip(&is_rest).filter(|(_, rest)| **rest).map(|(count, _)| count).sum();
+        let company = self.moved.iter().map(|(from, moved)| (*from, count(moved))).collect();
+        Rest { company, entries: self.devices.iter().flat_map(|(_, device)| device.handed_on()).collect() }
     }
 
-    /// With only one of its devices, which no other touches, in this company.
-    pub fn keep(&mut self, device: &str, company: Vec<(f64, usize)>) {
-        self.devices.retain(|(name, _)| name == device);
-        self.signals.retain(|signal| signal.parts().0 == device);
-        (self.company, self.come) = (company, 0);
+    /// With only some of its devices, which no other touches but by what `rest` did.
+    pub fn keep(&mut self, kept: &[String], rest: &Rest) {
+        self.devices.retain(|(name, _)| kept.contains(name));
+        self.devices.iter_mut().for_each(|(_, device)| device.confine(kept, &rest.entries));
+        self.signals.retain(|signal| kept.iter().any(|name| name == signal.parts().0));
+        (self.company, self.come) = (rest.company.clone(), 0);
     }
 
     /// With counters that tell parts of a count.
@@ -119,34 +160,23 @@ impl Plant {
     /// Runs under `commands`, sorted by their instants, until `end`; gives what each sensor sees: of edges and of
     /// whatever is `watched` at every step, of everything else at the sorted `samples` only.
     pub fn run(&mut self, commands: &[Command], samples: &[f64], watched: &[bool], end: f64) -> Vec<Stream> {
-        let mut streams: Vec<Stream> = self.signals.iter().map(|signal| Stream::new(signal.kind.is_edge())).collect();
+        let mut running = self.begin(commands, samples, watched, end);
+        running.until(f64::INFINITY);
+        running.streams
+    }
+
+    /// The same, to be run a piece at a time.
+    pub fn begin<'a>(
+        &'a mut self,
+        commands: &'a [Command],
+        samples: &'a [f64],
+        watched: &[bool],
+        end: f64,
+    ) -> Running<'a> {
+        let streams = self.signals.iter().map(|signal| Stream::new(signal.kind.is_edge())).collect();
         let is_kept: Vec<bool> =
             self.signals.iter().zip(watched).map(|(signal, watched)| *watched || signal.kind.is_edge()).collect();
-        let is_any_kept = is_kept.contains(&true);
-        let (mut now, mut values) = (0.0, Vec::new());
-        let (mut commands, mut samples) = (commands.iter().peekable(), samples.iter().peekable());
-        loop {
-            while let Some(command) = commands.next_if(|command| command.at <= now) {
-                self.tell(now, command);
-            }
-            let is_sample = samples.next_if(|sample| **sample <= now).is_some();
-            if is_sample || is_any_kept {
-                self.read(now, &mut values);
-                for ((stream, value), is_kept) in streams.iter_mut().zip(&values).zip(&is_kept) {
-                    if is_sample || *is_kept {
-                        stream.push(now, *value);
-                    }
-                }
-            }
-            if now >= end {
-                return streams;
-            }
-            let next = (now + STEP).min(end);
-            let next = commands.peek().map_or(next, |command| next.min(command.at));
-            let next = samples.peek().map_or(next, |sample| next.min(**sample));
-            self.advance(next, next - now);
-            now = next;
-        }
+        Running { plant: self, commands, samples, is_kept, end, now: 0.0, values: Vec::new(), streams }
     }
 
     /// What all sensors see, in the order of the signals.
@@ -167,19 +197,86 @@ impl Plant {
 
     /// Everything moves on by `span` until `now`.
     pub fn advance(&mut self, now: f64, span: f64) {
-        let moving = || self.devices.iter().map(|(_, device)| device.moving());
-        if self.moved.last().is_none_or(|(_, last)| !moving().eq(last.iter().copied())) {
-            self.moved.push((now - span, moving().collect()));
+        self.moving.clear();
+        self.moving.extend(self.devices.iter().map(|(_, device)| device.moving()));
+        if self.moved.last().is_none_or(|(_, last)| *last != self.moving) {
+            self.moved.push((now - span, self.moving.clone()));
         }
-        let own: usize = moving().sum();
+        let own: usize = self.moving.iter().sum();
         while self.company.get(self.come).is_some_and(|(from, _)| *from <= now - span + 1e-12) {
             self.come += 1;
         }
         let company = self.come.checked_sub(1).map_or(0, |at| self.company[at].1);
-        let moving = own + company;
-        for (_, device) in &mut self.devices {
-            let others = moving - device.moving();
-            device.advance(now, span, others);
+        for ((_, device), moving) in self.devices.iter_mut().zip(&self.moving) {
+            device.advance(now, span, own + company - moving);
         }
+    }
+}
+
+/// A run of a plant that is under way.
+pub struct Running<'a> {
+    plant: &'a mut Plant,
+    /// What is still to come.
+    commands: &'a [Command],
+    samples: &'a [f64],
+    is_kept: Vec<bool>,
+    end: f64,
+    now: f64,
+    values: Vec<f64>,
+    /// What each sensor has seen so far.
+    pub streams: Vec<Stream>,
+}
+
+impl Running<'_> {
+    /// Runs on, to the first step that ends at `time` or later, or to its end; whether it has come there.
+    pub fn until(&mut self, time: f64) -> bool {
+        let is_any_kept = self.is_kept.contains(&true);
+        while self.now < time {
+            while let Some((command, rest)) = self.commands.split_first().filter(|(command, _)| command.at <= self.now)
+            {
+                self.plant.tell(self.now, command);
+                self.commands = rest;
+            }
+            let due = self.samples.split_first().filter(|(sample, _)| **sample <= self.now);
+            let is_sample = due.is_some();
+            self.samples = due.map_or(self.samples, |(_, rest)| rest);
+            if is_sample || is_any_kept {
+                self.plant.read(self.now, &mut self.values);
+                for ((stream, value), is_kept) in self.streams.iter_mut().zip(&self.values).zip(&self.is_kept) {
+                    if is_sample || *is_kept {
+                        stream.push(self.now, *value);
+                    }
+                }
+            }
+            if self.now >= self.end {
+                return true;
+            }
+            let next = (self.now + STEP).min(self.end);
+            let next = self.commands.first().map_or(next, |command| next.min(command.at));
+            let next = self.samples.first().map_or(next, |sample| next.min(*sample));
+            self.plant.advance(next, next - self.now);
+            self.now = next;
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::chance::Dice;
+    use crate::rig::RigParameters;
+    use crate::script::{self, Part};
+
+    #[test]
+    fn a_run_in_pieces_is_the_run() {
+        let (rig, commands) = (RigParameters::nominal(), script::program(Part::Train, &mut Dice::new(1, 1)));
+        let samples: Vec<f64> = (0..200).map(|k| 0.0037 + 0.01 * f64::from(k)).collect();
+        let mut plant = rig.plant(&[], 1);
+        let watched: Vec<bool> = (0..plant.signals.len()).map(|at| at % 2 == 0).collect();
+        let whole = plant.run(&commands, &samples, &watched, 2.0);
+        let mut plant = rig.plant(&[], 1);
+        let mut running = plant.begin(&commands, &samples, &watched, 2.0);
+        assert!(!running.until(0.5) && !running.until(1.23456) && running.until(f64::INFINITY));
+        assert!(running.streams == whole);
     }
 }

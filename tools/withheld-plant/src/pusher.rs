@@ -1,5 +1,6 @@
 //! A pneumatic cylinder that pushes: no ramp, two switches at its ends.
 
+use crate::drive::supplied;
 use crate::plant::Device;
 use crate::quirk::{Quirk, Quirks};
 use crate::sensor::Along;
@@ -90,7 +91,7 @@ impl Pusher {
             (false, true) => -self.parameters.retract_speed,
             _ => 0.0,
         };
-        let speed = base * self.supply.powi(others as i32) * (1.0 - self.sag);
+        let speed = base * supplied(self.supply, others) * (1.0 - self.sag);
         let speed = speed.clamp(-self.fastest, self.fastest);
         let left = if speed > 0.0 { self.parameters.stroke - self.position } else { self.position };
         match self.cushion {

@@ -12,6 +12,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::drive::supplied;
 use crate::plant::Device;
 use crate::quirk::{Quirk, Quirks};
 use crate::switch::Delay;
@@ -134,7 +135,7 @@ impl Servo {
     fn exerted(&self, asked: f64, others: usize) -> f64 {
         let side = if asked < 0.0 { self.backwards } else { 1.0 };
         let fade = self.fades.map_or(1.0, |(share, _)| 1.0 - share * self.heat);
-        let force = asked * self.gain * side * fade * self.supply.powi(others as i32);
+        let force = asked * self.gain * side * fade * supplied(self.supply, others);
         if self.saturates.is_finite() { self.saturates * (force / self.saturates).tanh() } else { force }
     }
 
@@ -154,7 +155,7 @@ impl Servo {
             None => asked,
         };
         let exerted = self.exerted(asked, others);
-        if asked * exerted > 0.0 {
+        if self.slew.is_finite() && asked * exerted > 0.0 {
             self.arrives = exerted / asked;
         }
         let pulls = exerted - self.opposed(0.0, 0.0).1;
@@ -330,7 +331,8 @@ impl Friction {
         let warmth = self.warms.map_or(0.0, |(rise, time)| rise * (1.0 - (-self.clock / time).exp()));
         let along =
             self.along.map_or(0.0, |[amplitude, period, phase]| amplitude * (TAU * position / period + phase).sin());
-        let falls = self.stribeck * fades((speed / self.stribeck_speed).powi(2));
+        let falls =
+            if self.stribeck == 0.0 { 0.0 } else { self.stribeck * fades((speed / self.stribeck_speed).powi(2)) };
         (self.coulomb * (1.0 + warmth) + along + falls + self.by_load * drive.abs()).max(0.0)
     }
 

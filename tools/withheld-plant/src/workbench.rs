@@ -6,11 +6,12 @@ use std::rc::Rc;
 
 use crate::catalogue::{Entry, Spot};
 use crate::chance::Dice;
-use crate::classes::{self, Alone, Number, SMALL, numbers_at, with_number};
+use crate::classes::{self, Alone, MOTIONS, Number, SMALL, numbers_at, with_number};
 use crate::machine::{Machine, with_each_larger};
 use crate::magnitude::{Hidden, Magnitude, distance, levels_apart, noise_beyond};
-use crate::plant::{Command, Plant, Signal};
+use crate::plant::{Command, Plant, Rest, Signal};
 use crate::quirk::{Member, Quirk};
+use crate::recent::Recent;
 use crate::record::{self, Seen, Surroundings};
 use crate::rig::RigParameters;
 use crate::script::Part;
@@ -38,6 +39,12 @@ const OLDER: f64 = 2e-6;
 fn is_its_strengths(distance: f64, weaker: f64) -> bool {
     weaker <= SHOWS_LESS * distance
 }
+
+/// How many runs, what others did and what they hide are kept for when they are asked for again: enough for two effects that are
+/// looked at beside each other, while others are tried in the place of one.
+const RESTS: usize = 6;
+const SEEN: usize = 8;
+const BESIDE: usize = 4;
 
 /// What is easier about practice than about an exam.
 #[derive(Clone, Copy, Debug, Default)]
@@ -101,6 +108,12 @@ pub struct Bench {
     tolerance: f64,
     /// By device, what its tolerances hide.
     hidden: RefCell<BTreeMap<String, Rc<Hidden>>>,
+    /// By the devices that run and what is wrong elsewhere, what all others do.
+    rests: Recent<(Vec<String>, Vec<Quirk>), Rest>,
+    /// By what is wrong and the device, what was seen of it.
+    seen: Recent<(Vec<Quirk>, String), Seen>,
+    /// By what is wrong and the device, what its tolerances and the numbers of that hide.
+    beside: Recent<(Vec<Quirk>, String), Hidden>,
     /// By device, how much its levels tell of the age of the reports, 1/s².
     age_known: OnceCell<BTreeMap<String, f64>>,
 }
@@ -127,6 +140,9 @@ impl Bench {
             seed,
             tolerance,
             hidden: RefCell::default(),
+            rests: Recent::new(RESTS),
+            seen: Recent::new(SEEN),
+            beside: Recent::new(BESIDE),
             age_known: OnceCell::new(),
         }
     }
@@ -157,15 +173,33 @@ impl Bench {
         (plant, seen)
     }
 
-    /// What one device of `built` reports in the training recording while it has `quirks`, told what it is told without them. Where no
-    /// device touches another, no other has to run.
+    /// What one device of `built` reports in the training recording while it has `quirks`, told what it is told without them. Only those
+    /// run that have to.
     fn of_device(&self, built: &dyn Machine, quirks: &[Quirk], (device, age): (&str, f64), healthy: &Run) -> Seen {
         let mut plant = built.plant(quirks, self.seed_of(Part::Train)).telling_parts();
-        if !self.design.is_connected() {
-            plant.keep(device, healthy.plant.company_of(device));
+        let about = built.about(device);
+        if let Some(rest) = self.rest(&about, quirks, healthy) {
+            plant.keep(&about, &rest);
         }
         let seen = self.listened(&mut plant, age);
         seen.of(device, &plant.signals)
+    }
+
+    /// What all but these devices do while the machine has `quirks`; nothing where that depends on what these do.
+    fn rest(&self, about: &[String], quirks: &[Quirk], healthy: &Run) -> Option<Rc<Rest>> {
+        let is_elsewhere = |quirk: &&Quirk| self.design.is_connected() && !about.contains(&quirk.device);
+        let elsewhere: Vec<Quirk> = quirks.iter().filter(is_elsewhere).cloned().collect();
+        if elsewhere.iter().any(|quirk| quirk.effect == "supply-drop") {
+            return None;
+        }
+        Some(self.rests.get((about.to_vec(), elsewhere.clone()), || {
+            if elsewhere.is_empty() {
+                return healthy.plant.rest_of(about);
+            }
+            let mut plant = self.built.plant(&elsewhere, self.seed_of(Part::Train));
+            self.listened(&mut plant, self.around.age);
+            plant.rest_of(about)
+        }))
     }
 
     /// What was told and seen while it had these effects: where devices touch each other, their automation answers to them.
@@ -197,53 +231,68 @@ impl Bench {
 
     /// How far these effects carry the training recording from what it would be: what their devices report of it.
     pub fn distance(&self, quirks: &[Quirk], healthy: &Run) -> f64 {
-        self.distance_from(&[], quirks, healthy)
+        self.distance_from(&[], quirks, 0.0, healthy)
     }
 
-    /// The same from where `others`, which are among them, have it by themselves: what the devices of the rest report of it.
-    fn distance_from(&self, others: &[Quirk], quirks: &[Quirk], healthy: &Run) -> f64 {
+    /// The same from where `others`, which are among them, have it by themselves: what the devices of the rest report of it. Of what is less than `least`
+    /// it may be less still.
+    fn distance_from(&self, others: &[Quirk], quirks: &[Quirk], least: f64, healthy: &Run) -> f64 {
         let machine = self.design.machine();
         let (noises, own): (Vec<&Quirk>, Vec<&Quirk>) =
             quirks.iter().filter(|quirk| !others.contains(quirk)).partition(|quirk| quirk.effect == NOISE);
         let devices: BTreeSet<&str> = own.iter().map(|quirk| machine.reporter(&quirk.device)).collect();
-        let squared = |device: &str| {
-            let run = |quirks: &[Quirk]| {
-                let quirks: Vec<Quirk> = quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
-                match quirks.is_empty() {
-                    true => healthy.seen_of(device),
-                    false => self.of_device(&*self.built, &quirks, (device, self.around.age), healthy),
-                }
-            };
-            let (signals, hidden) = (healthy.signals_of(device), self.hidden(device, healthy));
-            let (there, base) = (run(quirks), run(others));
-            // What the others would do with other numbers tells nobody of these.
-            let numbers = numbers_at(machine, others, device);
-            let moved = |off: f64| -> Vec<Seen> {
-                let by = |number: &Number| run(&with_number(others, *number, off));
+        let noisy = noises.into_iter().map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
+        let from = |device: &str, hidden: &Hidden| {
+            let (there, base) = (self.run(quirks, device, healthy), self.run(others, device, healthy));
+            distance(&there, &base, &healthy.signals_of(device), &self.around, hidden).powi(2)
+        };
+        let at_most =
+            (devices.iter().map(|device| from(device, &self.hidden(device, healthy))).sum::<f64>() + noisy).sqrt();
+        let is_alone = devices.iter().all(|device| numbers_at(machine, others, device).is_empty());
+        if is_alone || at_most < least {
+            return at_most;
+        }
+        let beside = devices.iter().map(|device| from(device, &self.hidden_beside(others, device, healthy)));
+        (beside.sum::<f64>() + noisy).sqrt()
+    }
+
+    /// What is seen of a device while the machine has these effects; how much it scatters is no part of it.
+    fn run(&self, quirks: &[Quirk], device: &str, healthy: &Run) -> Rc<Seen> {
+        let quirks: Vec<Quirk> = quirks.iter().filter(|quirk| quirk.effect != NOISE).cloned().collect();
+        if quirks.is_empty() {
+            return Rc::new(healthy.seen_of(device));
+        }
+        let run = || self.of_device(&*self.built, &quirks, (device, self.around.age), healthy);
+        self.seen.get((quirks.clone(), device.to_owned()), run)
+    }
+
+    /// What a device's tolerances hide, and the numbers of `others`: what they would do with other numbers tells nobody of any effect beside them.
+    fn hidden_beside(&self, others: &[Quirk], device: &str, healthy: &Run) -> Rc<Hidden> {
+        let numbers = numbers_at(self.design.machine(), others, device);
+        self.beside.get((others.to_vec(), device.to_owned()), || {
+            let signals = healthy.signals_of(device);
+            let moved = |off: f64| -> Vec<Rc<Seen>> {
+                let by = |number: &Number| self.run(&with_number(others, *number, off), device, healthy);
                 numbers.iter().map(by).collect()
             };
             let is_flag = |signal: &Signal| signal.kind.is_edge();
             let levels = if signals.iter().all(is_flag) { Vec::new() } else { moved(SMALL) };
             let flags = if signals.iter().any(is_flag) { OFF.map(&moved).concat() } else { Vec::new() };
-            let hidden = match numbers.is_empty() {
-                true => hidden,
-                false => Rc::new(hidden.beside((&levels, SMALL), &flags, &base, (&signals, &self.around))),
-            };
-            distance(&there, &base, &signals, &self.around, &hidden).powi(2)
-        };
-        let noisy = noises.into_iter().map(|noise| self.noise_shows(noise, healthy).powi(2)).sum::<f64>();
-        (devices.into_iter().map(squared).sum::<f64>() + noisy).sqrt()
+            let base = self.run(others, device, healthy);
+            self.hidden(device, healthy).beside((&levels, SMALL), &flags, &base, (&signals, &self.around))
+        })
     }
 
     /// Whether each of these effects shows at least so much beside the others, whatever the numbers of those are: a dead band may hide what a spring would
     /// show alone, and a mass a little less of it a friction.
     pub fn show_beside(&self, quirks: &[Quirk], least: f64, healthy: &Run) -> bool {
         let is_alone = quirks.len() < 2;
-        is_alone
-            || (0..quirks.len()).all(|at| {
-                let others = [&quirks[..at], &quirks[at + 1..]].concat();
-                self.distance_from(&others, quirks, healthy) >= least
-            })
+        // The last one first: what the others do by themselves was asked for when another was tried in its place.
+        let is_alone_or_shows = |at: usize| {
+            let others = [&quirks[..at], &quirks[at + 1..]].concat();
+            is_alone || self.distance_from(&others, quirks, least, healthy) >= least
+        };
+        (0..quirks.len()).rev().all(is_alone_or_shows)
     }
 
     /// How far a level's noise goes beyond what its sensor may have anyway.
@@ -312,10 +361,9 @@ impl Bench {
         (most.powi(-2) + others.sum::<f64>()).sqrt().recip()
     }
 
-    /// What nobody can tell from each of `quirks`, beside the others, in the training recording.
-    pub fn classes(&self, quirks: &[Quirk]) -> Vec<Vec<Member>> {
-        let (script, plant, _) = self.recorded(Part::Train, quirks);
-        (0..quirks.len()).map(|at| self.class((&script, &plant), quirks, at)).collect()
+    /// What nobody can tell from each of `quirks`, beside the others, in the training recording, of which this is what was told and what ran.
+    pub fn classes(&self, quirks: &[Quirk], train: (&[Command], &Plant)) -> Vec<Vec<Member>> {
+        (0..quirks.len()).map(|at| self.class(train, quirks, at)).collect()
     }
 
     /// What nobody can tell from the one at `at`, of those that `plant` ran with under `script`.
@@ -323,19 +371,20 @@ impl Bench {
         let (built, quirk) = (&*self.built, &quirks[at]);
         let device = built.reporter(&quirk.device);
         // A belt of a line moves what the one before it hands on; all others move by their commands alone.
-        let is_apart = !self.design.is_connected() || built.kind(device) != "Belt";
-        let is_its =
-            |command: &&Command| !is_apart || command.signal.split_once('.').is_some_and(|(of, _)| of == device);
+        let is_belt = self.design.is_connected() && built.kind(device) == "Belt";
+        let about = if is_belt { built.about(device) } else { vec![device.to_owned()] };
+        let is_its = |command: &&Command| is_belt || command.signal.split_once('.').is_some_and(|(of, _)| of == device);
         let alone = Alone {
             built,
             around: &self.around,
             device,
-            is_apart,
             script: script.iter().filter(is_its).cloned().collect(),
             others: [&quirks[..at], &quirks[at + 1..]].concat(),
-            company: plant.company_of(device),
+            rest: plant.rest_of(&about),
+            about,
             seed: self.seed_of(Part::Train),
             share: self.deviation(),
+            motions: Recent::new(MOTIONS),
         };
         classes::class(&alone, quirk, Part::Train.seconds())
     }

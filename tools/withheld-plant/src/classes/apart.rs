@@ -44,6 +44,35 @@ impl Measure {
         self.unsure.iter().enumerate().map(of).collect()
     }
 
+    /// Those of the [`differences`](Measure::differences) that are known by then.
+    pub fn differences_until(&self, one: &Heard, other: &Heard, until: f64) -> Vec<f64> {
+        let mut all = Vec::new();
+        for (signal, unsure) in self.unsure.iter().enumerate() {
+            all.extend(unsure.iter().flat_map(|unsure| unsure.apart(pairs(other, one, signal))));
+        }
+        for (one, other) in one.edges.iter().zip(&other.edges) {
+            let from = all.len();
+            self.edges(&one[..known_edges(one, until)], other, &mut all);
+            // What there is too much of may have its like later.
+            all.truncate(from + known_edges(one, until));
+        }
+        all
+    }
+
+    /// The places of those among the [`differences`](Measure::differences) from `one`, where so many reports are there by then.
+    pub fn places_until(&self, one: &Heard, reports: usize, until: f64) -> Vec<usize> {
+        let (mut places, mut from) = (Vec::new(), 0);
+        for _ in self.unsure.iter().flatten() {
+            places.extend(from..from + reports);
+            from += one.values.len();
+        }
+        for edges in &one.edges {
+            places.extend(from..from + known_edges(edges, until));
+            from += edges.len() + 1;
+        }
+        places
+    }
+
     /// Differences whose squares sum to about the same and that move with every edge: `other` less `one`, as many as `one` has values
     /// and edges.
     pub fn differences(&self, one: &Heard, other: &Heard) -> Vec<f64> {
@@ -97,6 +126,16 @@ impl Measure {
         let size = if cycles.abs() <= 1.0 { cycles.abs() } else { (2.0 * cycles.abs() - 1.0).sqrt() };
         12.0_f64.sqrt() * size.copysign(cycles)
     }
+}
+
+/// How many of these edges have passed so long ago that what may be near each is known.
+fn known_edges(edges: &[(f64, f64)], until: f64) -> usize {
+    edges.partition_point(|(at, _)| at + NEAR <= until)
+}
+
+/// What a sum of squares over a part says of the whole: the last stay of each level may go on, and weighs as one however long it is.
+pub fn at_least(squared: f64) -> f64 {
+    (0.9 * squared - 12.0).max(0.0)
 }
 
 /// What the one and the other have for a signal, report by report.

@@ -35,6 +35,8 @@ pub struct Free {
     /// By its logarithm, or as it is.
     pub is_log: bool,
     pub starts: Vec<f64>,
+    /// On how many sides of doing nothing these are, in turn, ever stronger; 0 where they are in no such order.
+    pub sides: usize,
     pub range: (f64, f64),
     /// What is a small change of it, in the search's own terms.
     pub small: f64,
@@ -47,7 +49,34 @@ pub struct Candidate {
     pub free: Vec<Free>,
 }
 
+/// Points of a grid.
+pub struct Side {
+    pub points: Vec<Vec<f64>>,
+    /// Whether each is weaker than the one before it.
+    pub gets_weaker: bool,
+}
+
 impl Candidate {
+    /// All that the search may start from, in the search's terms; of one number the strongest of each side first.
+    pub fn grid(&self) -> Vec<Side> {
+        if let [free] = self.free.as_slice()
+            && free.sides > 0
+        {
+            let side = |side: usize| {
+                let starts = free.starts.iter().skip(side).step_by(free.sides).rev();
+                Side { points: starts.map(|start| vec![*start]).collect(), gets_weaker: true }
+            };
+            return (0..free.sides).map(side).collect();
+        }
+        let mut points = vec![Vec::new()];
+        for free in &self.free {
+            let with =
+                |at: &Vec<f64>| free.starts.iter().map(|start| [at.as_slice(), &[*start]].concat()).collect::<Vec<_>>();
+            points = points.iter().flat_map(with).collect();
+        }
+        vec![Side { points, gets_weaker: false }]
+    }
+
     /// With these values of its free parameters, in the search's terms.
     pub fn at(&self, values: &[f64]) -> Quirk {
         let mut quirk = self.quirk.clone();
@@ -227,13 +256,21 @@ fn with(entry: &Entry, place: &Place) -> Vec<Candidate> {
 fn free(law: &Law, scale: f64) -> Option<Free> {
     let log = |name, starts: Vec<f64>, low: f64, high: f64| {
         let range = (low.ln(), high.ln());
-        Some(Free { name, is_log: true, starts: starts.into_iter().map(f64::ln).collect(), range, small: 1e-3 })
+        Some(Free {
+            name,
+            is_log: true,
+            starts: starts.into_iter().map(f64::ln).collect(),
+            sides: 1,
+            range,
+            small: 1e-3,
+        })
     };
     let line = |name, middle: f64, most: f64| {
         let starts = STRENGTHS.iter().flat_map(|s| [middle - most * s, middle + most * s]).collect();
         let range = (middle - STRONGEST * most, middle + STRONGEST * most);
-        Some(Free { name, is_log: false, starts, range, small: 1e-5 * most })
+        Some(Free { name, is_log: false, starts, sides: 2, range, small: 1e-5 * most })
     };
+    let in_no_order = |free: Option<Free>| free.map(|free| Free { sides: 0, ..free });
     let grows = |name, most: f64| {
         // What comes late by longer than it stands never comes.
         let is_time = ["time", "time_constant"].contains(&name);
@@ -246,7 +283,8 @@ fn free(law: &Law, scale: f64) -> Option<Free> {
         Law::Share(name, most) => grows(name, most),
         Law::About1(name, most) => line(name, 1.0, most),
         Law::Either(name, most) => line(name, 0.0, scale * most),
-        Law::Wrong(most) => line("value", scale, scale * most),
+        // The machine's own value is another than the nominal one, whose neighbours do not do nothing.
+        Law::Wrong(most) => in_no_order(line("value", scale, scale * most)),
         Law::Below(name, _) => {
             // What a limit is compared with may lie a little above the scale.
             let shares = [1.08, 1.0, 0.97, 0.92, 0.85, 0.75, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05];
@@ -258,9 +296,9 @@ fn free(law: &Law, scale: f64) -> Option<Free> {
         }
         Law::Within(name, low, high) if low > 0.0 => {
             let (low, high) = (scale * low, scale * high);
-            log(name, vec![low, (low * high).sqrt(), high], 0.1 * low, 10.0 * high)
+            in_no_order(log(name, vec![low, (low * high).sqrt(), high], 0.1 * low, 10.0 * high))
         }
-        Law::Within(name, low, high) => line(name, 0.5 * scale * (low + high), 0.5 * scale * (high - low)),
+        Law::Within(name, low, high) => in_no_order(line(name, 0.5 * scale * (low + high), 0.5 * scale * (high - low))),
         Law::Is(..) | Law::OneOf(..) => None,
     }
 }

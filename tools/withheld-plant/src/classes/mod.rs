@@ -24,7 +24,7 @@ mod tests;
 
 use std::cell::OnceCell;
 
-pub use alone::{Alone, Number, numbers_at, with_number};
+pub use alone::{Alone, MOTIONS, Number, numbers_at, with_number};
 pub use refit::SMALL;
 
 use alone::Unknowns;
@@ -133,8 +133,7 @@ impl<'a> Look<'a> {
                 return others.sqrt();
             }
         }
-        let mut starts = self.first.starts(candidate);
-        starts.retain(|start| start.squared < PROMISING * PROMISING * self.shows);
+        let starts = self.first.starts(candidate, PROMISING * PROMISING * self.shows);
         let fits = starts.into_iter().map(|start| self.first.descend(candidate, start));
         let Some(best) = fits.min_by(|a, b| a.squared.total_cmp(&b.squared)) else { return f64::INFINITY };
         let distance = |fit: &Fit| fit.squared.sqrt();

@@ -6,10 +6,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::alone::{Alone, Heard, Unknowns};
-use super::apart::Measure;
+use super::alone::{Alone, Heard, IsHopeless, Unknowns};
+use super::apart::{Measure, at_least};
 use super::candidate::Candidate;
 use crate::quirk::Quirk;
+use crate::recent::Recent;
 
 /// An output that others are fitted to.
 pub struct Goal<'a> {
@@ -24,7 +25,30 @@ pub struct Goal<'a> {
     owners: Vec<usize>,
     /// By measure, then the filter and the numbers of others: how the output moves with a standard deviation of each.
     columns: Vec<Vec<f64>>,
+    /// By the instants at which a run is looked at, what the unknown can take of what is apart by then.
+    parts: Recent<f64, Taken>,
 }
+
+/// What the unknown can take of what is apart.
+struct Taken {
+    columns: Vec<Vec<f64>>,
+    known: Option<DMatrix<f64>>,
+}
+
+impl Taken {
+    fn new(columns: Vec<Vec<f64>>) -> Taken {
+        let known = known(&columns);
+        Taken { columns, known }
+    }
+
+    /// The square of what is left.
+    fn leaves(&self, apart: &[f64]) -> f64 {
+        left(apart, &self.columns, self.known.as_ref())
+    }
+}
+
+/// A run is looked at no more often than so.
+const PARTS: usize = 4;
 
 /// Where a fit came to.
 #[derive(Clone, Debug)]
@@ -46,6 +70,8 @@ const WIDENINGS: usize = 6;
 pub const SMALL: f64 = 0.02;
 /// How many standard deviations what is unknown may be off.
 const MOST_OFF: f64 = 3.0;
+/// What moves the recording by no more than this share of the truth moves it by no more when it is weaker, and comes nowhere near the truth.
+const NOTHING: f64 = 0.05;
 /// Starts from which the search goes on.
 const BEST: usize = 2;
 
@@ -65,7 +91,8 @@ impl<'a> Goal<'a> {
         let columns = (0..count).map(column).collect();
         let healthy = measure.differences(&truth, &device.hear(&[], &Unknowns::default(), end));
         let owners = measure.owners(&truth);
-        Goal { device, measure, quirks, end, truth, healthy, owners, columns }
+        let parts = Recent::new(PARTS);
+        Goal { device, measure, quirks, end, truth, healthy, owners, columns, parts }
     }
 
     /// D² of the effect itself on the signals of which `is_meant` is so, but for what the unknown takes.
@@ -81,45 +108,97 @@ impl<'a> Goal<'a> {
         product(&self.healthy, &self.healthy)
     }
 
-    fn hear(&self, candidate: &Candidate, at: &[f64]) -> Heard {
+    /// What is heard of the candidate, unless what is heard until some instant says that it is `at_least` more than `most`.
+    fn hear_below(
+        &self,
+        (candidate, at): (&Candidate, &[f64]),
+        most: f64,
+        at_least: &dyn Fn(&Heard, f64) -> f64,
+    ) -> Option<Heard> {
         let (own, unknown) = at.split_at(candidate.free.len());
         let unknowns = Unknowns::of(unknown, self.device.measures());
-        self.device.hear(&[self.device.built.fitted(candidate.at(own))], &unknowns, self.end)
+        let is_more = |heard: &Heard, until: f64| at_least(heard, until) > most;
+        let is_hopeless: Option<&IsHopeless<'_>> = if most.is_finite() { Some(&is_more) } else { None };
+        self.device.hear_unless(&[self.device.built.fitted(candidate.at(own))], &unknowns, self.end, is_hopeless)
     }
 
-    /// D² by the rule of the magnitudes, and what the unknown costs.
-    pub fn squared(&self, candidate: &Candidate, at: &[f64]) -> f64 {
-        let unknown: f64 = at[candidate.free.len()..].iter().map(|off| off * off).sum();
-        finite(self.measure.squared(&self.truth, &self.hear(candidate, at)) + unknown)
+    /// D² by the rule of the magnitudes, and what the unknown costs; of what is more than `most`, infinitely much.
+    fn squared_below(&self, candidate: &Candidate, at: &[f64], most: f64) -> f64 {
+        let unknown = unknown_squared(candidate, at);
+        let least = |heard: &Heard, _: f64| at_least(self.measure.squared(&self.truth, heard)) + unknown;
+        let heard = self.hear_below((candidate, at), most, &least);
+        heard.map_or(f64::INFINITY, |heard| finite(self.measure.squared(&self.truth, &heard) + unknown))
+    }
+
+    /// What is apart, unless the sum of its squares is more than `most`.
+    fn differences_below(&self, candidate: &Candidate, at: &[f64], most: f64) -> Option<DVector<f64>> {
+        let unknown = unknown_squared(candidate, at);
+        let least = |heard: &Heard, until: f64| {
+            let apart = self.measure.differences_until(&self.truth, heard, until);
+            at_least(product(&apart, &apart)) + unknown
+        };
+        let heard = self.hear_below((candidate, at), most, &least)?;
+        let mut all = self.measure.differences(&self.truth, &heard);
+        all.extend(&at[candidate.free.len()..]);
+        Some(DVector::from_vec(all))
     }
 
     fn differences(&self, candidate: &Candidate, at: &[f64]) -> DVector<f64> {
-        let mut all = self.measure.differences(&self.truth, &self.hear(candidate, at));
-        all.extend(&at[candidate.free.len()..]);
-        DVector::from_vec(all)
+        self.differences_below(candidate, at, f64::INFINITY).unwrap_or_default()
     }
 
-    /// Where the search begins, from the grid: the best with what is unknown solved for.
-    pub fn starts(&self, candidate: &Candidate) -> Vec<Fit> {
-        let mut grid = vec![Vec::new()];
-        for free in &candidate.free {
-            grid = grid
-                .iter()
-                .flat_map(|at| free.starts.iter().map(move |start| [at.as_slice(), &[*start]].concat()))
-                .collect();
-        }
-        let known = known(&self.columns);
-        let mut starts: Vec<Fit> = grid
-            .into_iter()
-            .map(|mut at| {
-                let apart = self.measure.differences(&self.truth, &self.hear(candidate, &at));
-                let squared = left(&apart, &self.columns, known.as_ref());
+    /// What is apart where nothing that is unknown is off, and the square of what the unknown leaves of it, unless that is more than `most`.
+    fn left_below(&self, candidate: &Candidate, at: &[f64], taken: &Taken, most: f64) -> Option<(Vec<f64>, f64)> {
+        let least = |heard: &Heard, until: f64| {
+            let taken = self.parts.get(until, || {
+                let places = self.measure.places_until(&self.truth, heard.values.len(), until);
+                let part = |column: &Vec<f64>| places.iter().map(|place| column[*place]).collect();
+                Taken::new(self.columns.iter().map(part).collect())
+            });
+            at_least(taken.leaves(&self.measure.differences_until(&self.truth, heard, until)))
+        };
+        let apart = self.measure.differences(&self.truth, &self.hear_below((candidate, at), most, &least)?);
+        let squared = taken.leaves(&apart);
+        Some((apart, squared))
+    }
+
+    /// The square of what the unknown leaves of what is apart.
+    #[cfg(test)]
+    pub fn left(&self, candidate: &Candidate, at: &[f64]) -> f64 {
+        let taken = Taken::new(self.columns.clone());
+        self.left_below(candidate, at, &taken, f64::INFINITY).map_or(f64::INFINITY, |(_, squared)| squared)
+    }
+
+    /// Whether no part of a run says that it is more than `most`.
+    #[cfg(test)]
+    pub fn is_left_below(&self, candidate: &Candidate, at: &[f64], most: f64) -> bool {
+        // Of a run that is known nothing is left.
+        self.device.motions.forget();
+        self.left_below(candidate, at, &Taken::new(self.columns.clone()), most).is_some()
+    }
+
+    /// Where the search begins, from the grid: the best with what is unknown solved for, of those at most `most` off.
+    pub fn starts(&self, candidate: &Candidate, most: f64) -> Vec<Fit> {
+        let taken = Taken::new(self.columns.clone());
+        let nothing = NOTHING * NOTHING * taken.leaves(&self.healthy);
+        let mut starts: Vec<Fit> = Vec::new();
+        for side in candidate.grid() {
+            for mut at in side.points {
+                // Of what is farther off than the best none is asked for.
+                let most = starts.get(BEST - 1).map_or(most, |last| last.squared.min(most));
+                let Some((apart, squared)) = self.left_below(candidate, &at, &taken, most) else { continue };
+                let does: f64 = apart.iter().zip(&self.healthy).map(|(apart, healthy)| (apart - healthy).powi(2)).sum();
                 at.extend(vec![0.0; self.columns.len()]);
-                Fit { at, squared }
-            })
-            .collect();
-        starts.sort_by(|a, b| a.squared.total_cmp(&b.squared));
-        starts.truncate(BEST);
+                if squared < most {
+                    let place = starts.partition_point(|start| start.squared <= squared);
+                    starts.insert(place, Fit { at, squared });
+                    starts.truncate(BEST);
+                }
+                if side.gets_weaker && does < nothing {
+                    break;
+                }
+            }
+        }
         starts
     }
 
@@ -146,8 +225,8 @@ impl<'a> Goal<'a> {
                 }
                 let Some(step) = damped.cholesky().map(|known| known.solve(&slope)) else { break };
                 let tried = self.moved(candidate, &at, &step);
-                let there = self.differences(candidate, &tried);
-                if there.norm_squared() < cost {
+                let there = self.differences_below(candidate, &tried, cost);
+                if let Some(there) = there.filter(|there| there.norm_squared() < cost) {
                     (at, cost, residual) = (tried, there.norm_squared(), there);
                     damping = (damping * 0.1).max(1e-9);
                     break;
@@ -158,7 +237,7 @@ impl<'a> Goal<'a> {
                 break;
             }
         }
-        let squared = self.squared(candidate, &at);
+        let squared = self.squared_below(candidate, &at, f64::INFINITY);
         Fit { at, squared }
     }
 
@@ -219,7 +298,7 @@ impl<'a> Goal<'a> {
                     step[k] = side * steps[k];
                     let at = self.moved(candidate, &best.at, &step);
                     left = left.saturating_sub(1);
-                    let squared = self.squared(candidate, &at);
+                    let squared = self.squared_below(candidate, &at, best.squared);
                     if squared < best.squared {
                         best = Fit { at, squared };
                         steps[k] *= 2.0;
@@ -238,6 +317,11 @@ impl<'a> Goal<'a> {
         }
         best
     }
+}
+
+/// What it costs that what is unknown is so far off.
+fn unknown_squared(candidate: &Candidate, at: &[f64]) -> f64 {
+    at[candidate.free.len()..].iter().map(|off| off * off).sum()
 }
 
 /// (1 + JᵀJ)⁻¹ of what is unknown.

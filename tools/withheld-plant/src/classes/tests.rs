@@ -1,10 +1,12 @@
+use super::alone::{Heard, is_of_reports};
 use super::candidate::{candidates, own};
 use super::*;
 use crate::bench::{axis_quirk, quirk};
 use crate::chance::Dice;
 use crate::machine::Machine;
-use crate::plant::Command;
-use crate::record::Surroundings;
+use crate::plant::{Command, Rest};
+use crate::recent::Recent;
+use crate::record::{self, Surroundings};
 use crate::rig::RigParameters;
 use crate::site::Site;
 
@@ -35,12 +37,13 @@ impl Rig {
             built: &**built,
             around,
             device,
-            is_apart: true,
+            about: vec![device.clone()],
             script: script.clone(),
             others: self.others.clone(),
-            company: Vec::new(),
+            rest: Rest::default(),
             seed: 1,
             share: 0.01 / 3.0_f64.sqrt(),
+            motions: Recent::new(MOTIONS),
         }
     }
 
@@ -185,21 +188,95 @@ fn of_two_delays_of_one_flag_each_may_be_another() {
     assert_eq!(with_number(&[slow], numbers[0], 2.0_f64.ln())[0].value("time"), 0.072);
 }
 
-/// A belt of the line is listened to while all others run: by itself no box would ever come.
+/// A device of the line is listened to with what the belts before it hand on, as in a run of all: by itself no box would ever come.
 #[test]
-fn a_belt_of_the_line_is_heard_with_its_boxes() {
+fn a_device_of_the_line_is_heard_with_its_boxes() {
     let line = Site::Line.design(&[], 3);
-    let script = ["Conveyor3", "Conveyor4"].map(|belt| {
+    let belts = ["Conveyor3", "Conveyor4", "Curve1", "Conveyor5", "Conveyor6", "Conveyor8"].map(|belt| {
         let told = [("velocityTarget", 0.5), ("motorDirection", 1.0)];
         told.map(|(port, value)| Command { at: 0.1, signal: format!("{belt}.{port}"), value })
     });
-    let rig = Rig { script: script.concat(), ..Rig::of(line.machine().boxed(), "Conveyor4", &[]) };
-    let edges = |is_apart: bool| {
-        let heard = Alone { is_apart, ..rig.alone() }.hear(&[], &Unknowns::default(), 4.0);
-        let barriers = rig.alone().signals().iter().position(|signal| signal.name.ends_with("lightBarrierA"));
-        heard.edges[barriers.expect("a barrier")].len()
+    let pushes = [Command { at: 2.4, signal: "Pusher1.command".to_owned(), value: 1.0 }];
+    let script = [belts.concat().as_slice(), &pushes].concat();
+    for device in ["Conveyor4", "Conveyor5", "Conveyor8", "Pusher1", "Robot"] {
+        let rig = Rig { script: script.clone(), ..Rig::of(line.machine().boxed(), device, &[]) };
+        let mut plant = rig.built.plant(&[], 1);
+        let all: Vec<String> = plant.devices.iter().map(|(name, _)| name.clone()).collect();
+        let commands = record::taken(&rig.script, &plant, &rig.around, 4.0, &mut Dice::new(1, 23));
+        plant.run(&commands, &rig.around.due(4.0), &vec![false; plant.signals.len()], 4.0);
+        let heard =
+            |about: Vec<String>, rest: Rest| Alone { about, rest, ..rig.alone() }.hear(&[], &Unknowns::default(), 4.0);
+        let (whole, about) = (heard(all, Rest::default()), rig.built.about(device));
+        let some = heard(about.clone(), plant.rest_of(&about));
+        // A step ends at each command of those that run: to a tenth of a millisecond it is the same.
+        for (whole, some) in whole.edges.iter().zip(&some.edges) {
+            let is_same = |(a, b): (&(f64, f64), &(f64, f64))| (a.0 - b.0).abs() < 1.5e-4 && a.1 == b.1;
+            assert!(whole.len() == some.len() && whole.iter().zip(some).all(is_same), "{device}: {whole:?} {some:?}");
+        }
+        let edges = |heard: &Heard| heard.edges.iter().map(Vec::len).sum::<usize>();
+        let is_fed = device == "Conveyor4";
+        assert!(!is_fed || edges(&some) > edges(&heard(about, Rest::default())), "{device}");
+    }
+}
+
+/// What is wrong with reports alone moves nothing: devices that have it move as they do without.
+#[test]
+fn what_is_wrong_with_reports_moves_no_device() {
+    let rig = RigParameters::nominal();
+    let script = crate::script::program(crate::script::Part::Train, &mut Dice::new(1, 1));
+    let samples: Vec<f64> = (0..150).map(|k| 0.01 * f64::from(k)).collect();
+    let run = |quirks: &[Quirk]| {
+        let mut plant = rig.plant(quirks, 1);
+        let watched = vec![true; plant.signals.len()];
+        plant.run(&script, &samples, &watched, 1.5)
     };
-    assert!(edges(false) > edges(true), "{} {}", edges(false), edges(true));
+    let without = run(&[]);
+    for entry in crate::catalogue::ENTRIES {
+        for spot in entry.spots {
+            let quirk = entry.quirk(*spot, 1.0, &mut Dice::new(1, 3));
+            if is_of_reports(&quirk) {
+                assert!(run(std::slice::from_ref(&quirk)) == without, "{quirk:?}");
+            }
+        }
+    }
+}
+
+/// A run is left where a part of it says that the whole is too far off: what a part says is never more than the whole.
+#[test]
+fn what_a_part_of_a_run_says_is_at_most_what_the_whole_does() {
+    let check = |rig: &Rig, truth: Quirk, end: f64| {
+        let device = rig.alone();
+        let measure = Measure::new(&device, &device.signals());
+        let truth = [truth];
+        let goal = Goal::new(&device, &measure, &truth, end);
+        let mut left = 0;
+        for candidate in device.candidates(&truth[0]) {
+            for at in candidate.grid().into_iter().flat_map(|side| side.points) {
+                let most = goal.left(&candidate, &at);
+                assert!(goal.is_left_below(&candidate, &at, 1.001 * most + 1e-6), "{candidate:?} {at:?}");
+                left += usize::from(!goal.is_left_below(&candidate, &at, 0.3 * most - 50.0));
+            }
+        }
+        assert!(left > 10, "{left}");
+    };
+    check(&Rig::gripper(), at("process", quirk("Gripper", "vacuum-build-up", &[("time", 0.04)])), 6.0);
+    check(&Rig::belt(), at("actuator", quirk("Belt", "first-order-lag", &[("time_constant", 0.07)])), 6.0);
+}
+
+#[test]
+fn a_grid_begins_with_what_is_strongest() {
+    let device = Rig::new("Belt", &[]);
+    let signals = device.alone().signals();
+    let lag = at("actuator", quirk("Belt", "first-order-lag", &[("time_constant", 0.01)]));
+    let found = candidates(&lag, "Belt", &signals);
+    let sides = |effect: &str| {
+        let candidate = found.iter().find(|one| one.quirk.effect == effect).expect("a candidate");
+        candidate.grid().into_iter().map(|side| (side.gets_weaker, side.points[0][0])).collect::<Vec<_>>()
+    };
+    assert_eq!(sides("gain-error"), [(true, 0.7), (true, 1.3)]);
+    let limit = sides("velocity-limit");
+    assert!(limit.len() == 1 && limit[0].0 && (limit[0].1.exp() - 0.05 * 0.55).abs() < 1e-9);
+    assert!(sides("parameter-error").iter().all(|(gets_weaker, _)| !gets_weaker));
 }
 
 /// A motor at several speeds for most of a minute, its encoder a seventh short: what a small step of the scale changes is less than counts are

@@ -2,10 +2,11 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::BELTS;
 use super::floor::Floor;
 use crate::belt::BeltParameters;
 use crate::belt_drive::BeltDrive;
-use crate::plant::Device;
+use crate::plant::{Device, Entry};
 use crate::pusher::Pusher;
 use crate::quirk::Quirks;
 
@@ -39,7 +40,8 @@ impl Device for LineBelt {
 
     fn advance(&mut self, now: f64, span: f64, others: usize) {
         let mut floor = floor(&self.shared);
-        let way = self.drive.advance(now, span, floor.load(self.at), others);
+        let boxes = if self.drive.minds_load() { floor.load(self.at) } else { 0 };
+        let way = self.drive.advance(now, span, boxes, others);
         let bed = &mut floor.beds[self.at];
         bed.way = way;
         bed.travel += way;
@@ -77,8 +79,11 @@ impl Device for LinePusher {
     }
 
     fn advance(&mut self, now: f64, span: f64, others: usize) {
+        let before = self.pusher.out();
         self.pusher.advance(now, span, others);
-        floor(&self.shared).plates[self.at].out = self.pusher.out();
+        if self.pusher.out() != before {
+            floor(&self.shared).plates[self.at].out = self.pusher.out();
+        }
     }
 
     fn read(&self, now: f64, values: &mut Vec<f64>) {
@@ -101,13 +106,22 @@ pub struct Parts(pub Shared);
 impl Device for Parts {
     fn command(&mut self, _now: f64, _port: &str, _value: f64) {}
 
-    fn advance(&mut self, now: f64, _span: f64, _others: usize) {
-        floor(&self.0).advance(now);
+    fn advance(&mut self, now: f64, span: f64, _others: usize) {
+        floor(&self.0).advance(now, span);
     }
 
     fn read(&self, _now: f64, _values: &mut Vec<f64>) {}
 
     fn moving(&self) -> usize {
         0
+    }
+
+    fn handed_on(&self) -> Vec<Entry> {
+        floor(&self.0).handed_on().to_vec()
+    }
+
+    fn confine(&mut self, kept: &[String], entries: &[Entry]) {
+        let is_kept = BELTS.map(|(name, ..)| kept.iter().any(|kept| kept == name));
+        floor(&self.0).confine(is_kept.to_vec(), entries);
     }
 }

@@ -7,6 +7,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::chance::Dice;
+use crate::plant::Entry;
 use crate::sensor::Along;
 
 /// A belt's place in the line.
@@ -81,12 +82,36 @@ pub struct Floor {
     parts: Vec<Part>,
     bays: Vec<Bay>,
     dice: Dice,
+    /// What the belts have handed on so far.
+    handed_on: Vec<Entry>,
+    /// What belts that are not there are still to hand on to those that are, the last first.
+    coming: Vec<Entry>,
+    /// Whether a belt is there; what comes onto another is gone.
+    is_kept: Vec<bool>,
 }
 
 impl Floor {
     /// With nothing on it.
     pub fn new(beds: Vec<Bed>, plates: Vec<Plate>, seed: u64) -> Floor {
-        Floor { beds, plates, parts: Vec::new(), bays: Vec::new(), dice: Dice::new(seed, 12) }
+        let is_kept = vec![true; beds.len()];
+        let (handed_on, coming) = (Vec::new(), Vec::new());
+        let dice = Dice::new(seed, 12);
+        Floor { beds, plates, parts: Vec::new(), bays: Vec::new(), dice, handed_on, coming, is_kept }
+    }
+
+    /// What the belts have handed on so far, in order.
+    pub fn handed_on(&self) -> &[Entry] {
+        &self.handed_on
+    }
+
+    /// With these belts alone: what others hand on to them comes as in `entries`.
+    pub fn confine(&mut self, is_kept: Vec<bool>, entries: &[Entry]) {
+        self.parts.retain(|part| is_kept[part.belt]);
+        self.bays.retain(|bay| is_kept[bay.belt]);
+        let hands_on = |belt: usize| (0..is_kept.len()).any(|from| is_kept[from] && self.beds[from].next == Some(belt));
+        self.coming =
+            entries.iter().rev().filter(|entry| is_kept[entry.belt] && !hands_on(entry.belt)).copied().collect();
+        self.is_kept = is_kept;
     }
 
     /// Puts a part of so much half length on a belt, m.
@@ -119,9 +144,10 @@ impl Floor {
     }
 
     /// Moves everything on until `now`, the belts having moved.
-    pub fn advance(&mut self, now: f64) {
+    pub fn advance(&mut self, now: f64, span: f64) {
         self.supply(now);
-        self.carry();
+        self.carry(now);
+        self.receive(now, span);
         self.push();
         self.look();
     }
@@ -140,8 +166,8 @@ impl Floor {
         }
     }
 
-    fn carry(&mut self) {
-        let (beds, plates) = (&self.beds, &self.plates);
+    fn carry(&mut self, now: f64) {
+        let Floor { beds, plates, handed_on, is_kept, .. } = self;
         for part in &mut self.parts {
             let bed = &beds[part.belt];
             let before = part.at;
@@ -159,9 +185,20 @@ impl Floor {
             {
                 part.at -= bed.length;
                 part.belt = next;
+                let Part { belt, at: place, across, half } = *part;
+                handed_on.push(Entry { at: now, belt, place, across, half });
             }
         }
-        self.parts.retain(|part| (0.0..=beds[part.belt].length).contains(&part.at));
+        self.parts.retain(|part| is_kept[part.belt] && (0.0..=beds[part.belt].length).contains(&part.at));
+    }
+
+    /// What comes from belts that are not there. What came within the step has gone on since.
+    fn receive(&mut self, now: f64, span: f64) {
+        while let Some(&Entry { at, belt, place, across, half }) = self.coming.last().filter(|entry| entry.at <= now) {
+            self.coming.pop();
+            let since = ((now - at) / span).min(1.0);
+            self.parts.push(Part { belt, at: place + since * self.beds[belt].way, across, half });
+        }
     }
 
     fn push(&mut self) {

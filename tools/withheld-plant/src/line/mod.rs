@@ -202,6 +202,19 @@ impl Machine for Line {
         self.hosts.contains_key(device)
     }
 
+    /// A belt hands on to the next, whose speed says how long a box stays in a beam at its end; where a plate clears it, all three of
+    /// pusher, belt and exit. What moves the boxes has no name.
+    fn about(&self, device: &str) -> Vec<String> {
+        let of = |name: &str| BELTS.iter().position(|belt| belt.0 == name);
+        let mut about = vec![device.to_owned()];
+        for exit in EXITS.iter().filter(|(pusher, belt, exit)| [*pusher, *belt, *exit].contains(&device)) {
+            about.extend([exit.0, exit.1, exit.2].map(str::to_owned));
+        }
+        about.extend(of(device).filter(|at| HANDS_ON.contains(at)).map(|at| BELTS[at + 1].0.to_owned()));
+        about.extend((about.len() > 1 || of(device).is_some()).then(String::new));
+        about
+    }
+
     fn kind(&self, device: &str) -> String {
         let unit = self.units.iter().find(|unit| unit.name == device);
         unit.map_or("", |unit| unit.figures.kind()).to_owned()
