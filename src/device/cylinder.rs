@@ -1,5 +1,6 @@
 //! A cylinder with what stands in its signal path.
 
+use super::law::lagging::Lagging;
 use super::law::stroke::{Drive, Stroke, StrokeSettings};
 use super::law::{SAME_INSTANT_S, SAME_VALUE};
 use super::path::{Bounds, Moment, Motion, Stages};
@@ -86,7 +87,8 @@ impl Cylinder {
             Drive::Extend => stroke.limit(speed(settings.extend_speed), settings.retract_speed),
             Drive::Retract => stroke.limit(settings.extend_speed, speed(-settings.retract_speed)),
         }
-        if *valve != Drive::Hold || self.coasting.is_infinite() {
+        let lags = stages.actuator.lag() > 0.0;
+        if !lags && (*valve != Drive::Hold || self.coasting.is_infinite()) {
             self.speed = stroke.velocity(*valve);
         }
         if self.speed != before {
@@ -128,7 +130,16 @@ impl Cylinder {
 
     /// Moves by `span`, driven by its valve, or carried on while it is held; no further than to where it comes to rest.
     fn move_by(&mut self, span: f64) {
-        if self.valve != Drive::Hold {
+        if let Some(lagging) = self.lagging() {
+            let Motion { position, velocity } = lagging.after(span);
+            self.stroke.drift(position - self.stroke.position());
+            let end = if velocity > 0.0 { self.settings.length } else { 0.0 };
+            let left = end - self.stroke.position();
+            // What is all but at its end stop is there, and stands: to the last bit, or it would be asked to go on for ever.
+            let is_there = velocity != 0.0 && left.abs() < SAME_VALUE;
+            self.stroke.drift(if is_there { 2.0 * SAME_VALUE.copysign(velocity) } else { 0.0 });
+            self.speed = if is_there || velocity.abs() < SAME_VALUE { 0.0 } else { velocity };
+        } else if self.valve != Drive::Hold {
             self.stroke.advance(self.valve, span);
             self.speed = self.stroke.velocity(self.valve);
         } else if self.speed != 0.0 {
@@ -141,8 +152,20 @@ impl Cylinder {
         }
     }
 
+    /// Its motion where its speed lags behind what its valve asks for; one that coasts while it is held does not.
+    fn lagging(&self) -> Option<Lagging> {
+        let time_constant = self.stages.actuator.lag();
+        let lags = time_constant > 0.0 && (self.valve != Drive::Hold || self.coasting.is_infinite());
+        let from = Motion { position: self.stroke.position(), velocity: self.speed };
+        lags.then(|| Lagging { from, asked: self.stroke.velocity(self.valve), time_constant })
+    }
+
     /// For how long it goes on as it does, s.
     fn steady(&self) -> f64 {
+        if let Some(lagging) = self.lagging() {
+            let StrokeSettings { length, limit_tolerance, .. } = self.settings;
+            return lagging.next(&[0.0, limit_tolerance, length - limit_tolerance, length]);
+        }
         match self.valve {
             Drive::Hold if self.speed != 0.0 => self.speed.abs() / self.coasting,
             valve => self.stroke.steady(valve),
@@ -158,6 +181,7 @@ impl Cylinder {
     /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage nobody knows but at rest.
     pub fn unchanged_for(&self) -> f64 {
         let is_at_rest = match self.valve {
+            _ if self.lagging().is_some_and(|lagging| lagging.asked != 0.0) => false,
             Drive::Hold => self.speed == 0.0,
             valve => self.stroke.steady(valve) <= 0.0,
         };

@@ -1,7 +1,8 @@
 //! `first-order-lag`: what the drive does follows what it should do as a first-order lag:
 //! time_constant · dy/dt + y = x, applied to position and velocity alike; on a servo axis with forces, to its force. An ideal
 //! axis closes on its target by a position loop, which is that lag as long as the drive's limits allow it
-//! ([`Closing`](crate::device::law::closing::Closing)).
+//! ([`Closing`](crate::device::law::closing::Closing)). A cylinder's speed lags, and its end stops are where they are: the lag ends
+//! there ([`Lagging`](crate::device::law::lagging::Lagging)).
 //!
 //! Source: the first-order lag of linear control theory (K. J. Åström, T. Hägglund, Advanced PID Control, ISA 2006,
 //! section 2.4). Over a stretch the position is taken to be a parabola, velocity and force a straight line; for these the
@@ -21,20 +22,20 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     places: &[EffectPlace::Actuator],
     parameters: &[time("time_constant", 0.05, "time after which 63 % of a step have been followed")],
     excited_by: "changes of speed",
-    build: Build::Stage(|values, site| match site.is_ideal() {
-        true => Box::new(PositionLoop { time_constant: values[0] }),
+    build: Build::Stage(|values, site| match site.is_ideal() || site.is_stroke() {
+        true => Box::new(OfLaw { time_constant: values[0] }),
         false => Box::new(FirstOrderLag { time_constant: values[0], last: None, force: (0.0, 0.0) }),
     }),
     ..BASE
 };
 
-/// The lag of an ideal axis.
+/// The lag of a law that knows of it: that of an ideal axis, or of a cylinder.
 #[derive(Clone, Debug)]
-struct PositionLoop {
+struct OfLaw {
     time_constant: f64,
 }
 
-impl Stage for PositionLoop {
+impl Stage for OfLaw {
     fn boxed(&self) -> Box<dyn Stage> {
         Box::new(self.clone())
     }
@@ -194,5 +195,23 @@ mod tests {
         axis.check(&[("forceTarget", 100.0)], 0.2, &[("force", 100.0)]);
         let exact = 5.0 * (0.2 - 0.05 * (1.0 - (-4.0_f64).exp()));
         assert!((axis.report("velocity") - exact).abs() < 3e-4, "{}", axis.report("velocity"));
+    }
+
+    /// 0.498 m at 0.5 m/s, of which the lag takes 0.05 s: at the switch the speed is all but whole, and the end stop is hard.
+    #[test]
+    fn a_cylinders_speed_lags_and_its_end_stop_is_where_it_is() {
+        let set = [("stroke", "0.5"), ("extendSpeed", "0.5"), ("retractSpeed", "0.5"), ("limitTolerance", "0.002")];
+        let mut pusher = with("Pusher", &set, &[spec("actuator", "first-order-lag", None, &[("time_constant", 0.05)])]);
+        pusher.check(&[("command", 1.0)], 1.0459, &[("limitExtended", 0.0), ("isRunning", 1.0)]);
+        pusher.check(&[], 2e-4, &[("limitExtended", 1.0), ("isRunning", 1.0)]);
+        // 2 mm further it stands, and turns round at once.
+        pusher.check(&[], 0.0041, &[("limitExtended", 1.0), ("isRunning", 0.0)]);
+        // 2 mm from rest: 0.5·(t − T·(1 − e^(−t/T))) = 0.002 after 21.43 ms.
+        pusher.check(&[("command", 2.0)], 0.0213, &[("limitExtended", 1.0)]);
+        pusher.check(&[], 3e-4, &[("limitExtended", 0.0)]);
+        // Held on its way it comes to rest there, and stays.
+        pusher.check(&[], 0.3, &[("isRunning", 1.0)]);
+        pusher.check(&[("command", 0.0)], 2.0, &[("isRunning", 0.0), ("limitRetracted", 0.0), ("limitExtended", 0.0)]);
+        pusher.check(&[("command", 1.0)], 0.001, &[("limitRetracted", 0.0), ("limitExtended", 0.0)]);
     }
 }

@@ -39,6 +39,11 @@ impl Site<'_> {
         self.is_servo() && !self.is_ideal()
     }
 
+    /// A cylinder between end stops.
+    pub fn is_stroke(&self) -> bool {
+        self.short() == "Pusher"
+    }
+
     /// A robot's axis.
     pub fn is_robot(&self) -> bool {
         self.short() == "CartesianRobot"

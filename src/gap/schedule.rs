@@ -206,6 +206,7 @@ fn of_belt(belt: &Subject, bay: &Bay, bare: &Bare) -> Result<Option<Subject>, Ef
         signals: vec![belt.signals[signal].clone()],
         runs: belt.runs.iter().map(run).collect(),
         bay: None,
+        likely: Overrides::none(),
         instance: bay.name.clone(),
         commanded: Vec::new(),
     }))

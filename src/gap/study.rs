@@ -292,12 +292,16 @@ fn find_task(
         return Ok(Some(task.every_s));
     }
     let found = if main.is_rebuilt { task::find(subjects, run, main.cycle)? } else { None };
-    if let Some(task) = found {
+    let found = found.map(|(task, likely)| {
         subjects.iter_mut().for_each(|subject| {
             subject.set_tick(run, 0.0, 0.0);
             subject.set_task(run, task);
+            if let Some((_, likely)) = likely.iter().find(|(id, _)| *id == subject.id) {
+                subject.likely = likely.clone();
+            }
         });
-    }
+        task
+    });
     let as_found = |subjects: &mut [Subject]| match found {
         Some(_) => find_timing(subjects, run),
         None => within_tolerances(subjects),

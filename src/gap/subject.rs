@@ -142,6 +142,8 @@ pub struct Subject {
     pub runs: Vec<Run>,
     /// Of a belt: the one bay that feeds it, whose parts lie along it.
     pub(super) bay: Option<Bay>,
+    /// What the likeliest task has it that nominal parameters are, where the search for them begins.
+    pub(super) likely: Overrides,
     /// The instance's name, from which all that is random about the device follows.
     pub(super) instance: String,
     /// The ports that have a signal and take commands.
@@ -192,6 +194,7 @@ impl Subject {
             runs: runs.collect(),
             signals,
             bay: None,
+            likely: Overrides::none(),
             instance: instance.name.clone(),
             commanded: commanded.into_iter().map(|(port, _)| port).collect(),
         }

@@ -6,6 +6,7 @@ pub mod closing;
 pub mod drive;
 pub mod encoder;
 pub mod follower;
+pub mod lagging;
 pub mod profile;
 pub mod ramp;
 pub mod schedule;

@@ -66,7 +66,10 @@ impl Bare {
     fn from(subject: &Subject, nominal: &Prediction, known: &Overrides, search: Search) -> Bare {
         let stop = || false;
         let bench = Bench::new(subject, nuisances(subject, nominal), &stop);
-        let begin = |nuisance: &Nuisance| known.0.get(nuisance.name).copied().unwrap_or(nuisance.nominal);
+        let begin = |nuisance: &Nuisance| {
+            let found = known.0.get(nuisance.name).or_else(|| subject.likely.0.get(nuisance.name));
+            found.copied().unwrap_or(nuisance.nominal)
+        };
         let start = bench.nuisances.iter().map(begin).collect();
         let fitted = (!bench.nuisances.is_empty()).then(|| fit(&bench, start, search)).flatten();
         let known = fitted.and_then(|(at, overrides)| Some((bench.predict(&[], &at)?, at, overrides)));

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::again::seek_again;
 use super::bare::about;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
@@ -130,6 +131,9 @@ pub fn climb(
         let mut end = Rung::Taken;
         while end == Rung::Taken && ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
             end = step(bench, &mut ladder, is_asked, tell);
+            if end == Rung::Taken && left_by(bench, &ladder.best, &ladder.bare.at) != Left::Nothing {
+                seek_again(bench, &mut ladder);
+            }
         }
         let is_dropped = drop_idle(bench, &mut ladder);
         if !(is_dropped || end == Rung::Unsure) || !step_by_two(bench, &mut ladder, is_asked, tell) {

@@ -1,5 +1,6 @@
 //! Which effect: candidates from the library, a ladder of them, their classes, intervals and what they leave.
 
+mod again;
 #[cfg(test)]
 mod axis_tests;
 mod bare;

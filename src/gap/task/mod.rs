@@ -14,6 +14,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::locate::THRESHOLD;
+use super::overrides::Overrides;
+use super::recording::TaskId;
 use super::subject::Subject;
 use crate::effect::EffectError;
 use voter::{Moments, Voter, age_of_most, age_of_near, likeliest_age};
@@ -74,11 +76,12 @@ impl Task {
     }
 }
 
-/// Finds what is common in a run, from subjects whose floors are known. `None` where nothing has to be found.
+/// Finds what is common in a run, from subjects whose floors are known, and what the nominal parameters of those that count are then. `None`
+/// where nothing has to be found.
 ///
 /// The likeliest task is found, each device's scale of error being its own: n·ln(squares), n the samples that move, each
 /// as much as its noise lets it tell. So a device with a gap of its own, whose squares are large whatever the task, has a small say.
-pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Task>, EffectError> {
+pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Option<Found>, EffectError> {
     let (found, near) = agreed(voters(subjects, run)?, (subjects, run), cycle)?;
     // What is far off whatever the task may have outvoted what is not.
     match found.is_none() && !near.is_empty() {
@@ -87,12 +90,15 @@ pub(super) fn find(subjects: &[Subject], run: usize, cycle: f64) -> Result<Optio
     }
 }
 
+/// A task, and what the nominal parameters of devices are beside it.
+pub(super) type Found = (Task, Vec<(TaskId, Overrides)>);
+
 /// What these devices agree on, and those of their levels that are near what is recorded under what is likeliest; none of these where all are.
 fn agreed(
     mut voters: Vec<Voter>,
     (subjects, run): (&[Subject], usize),
     cycle: f64,
-) -> Result<(Option<Task>, Vec<Voter>), EffectError> {
+) -> Result<(Option<Found>, Vec<Voter>), EffectError> {
     if voters.is_empty() {
         return Ok((None, Vec::new()));
     }
@@ -100,7 +106,6 @@ fn agreed(
     let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
     let before: Vec<f64> = now.iter().map(|moments| moments.cost(0.0)).collect();
     let mut best = Best::of(&mut voters, cycle)?;
-    best.between_commands(&voters)?;
     if best.task.every_s > 0.0 {
         // Whether there is such a task at all is asked of nominal parameters that were found without one, too.
         let at_once = Best::at_once(&mut voters)?;
@@ -132,7 +137,9 @@ fn agreed(
     }
     let moments = Best::moments(&voters, best.task)?;
     let age_s = age_of_most(&moments, age_of_near(&moments, best.task.age_s));
-    Ok((Some(Task { age_s, ..best.task }), Vec::new()))
+    let counters = voters.iter().filter(|voter| voter.is_a_counter());
+    let likely = counters.map(|voter| (voter.subject.id, voter.overrides())).collect();
+    Ok((Some((Task { age_s, ..best.task }, likely)), Vec::new()))
 }
 
 /// `known` with its phase as this run has it, which began at another instant: the likeliest as in [`find`].
@@ -222,10 +229,23 @@ impl Best {
         // may seem better than the true one until its phase is known nearer.
         each.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         let settled = each.into_iter().take(NEARER_TASKS).map(|best| best.settled(voters));
-        let settled = settled.collect::<Result<Vec<_>, _>>()?;
-        let Some((best, centred)) = settled.into_iter().min_by(|a, b| a.0.cost.total_cmp(&b.0.cost)) else {
-            return Ok(Best::none());
-        };
+        let mut settled = settled.collect::<Result<Vec<_>, _>>()?;
+        settled.sort_by(|a, b| a.0.cost.total_cmp(&b.0.cost));
+        let mut chosen: Option<(Best, Vec<Voter>)> = None;
+        for (mut best, centred) in settled {
+            best.between_commands(&centred)?;
+            if chosen.as_ref().is_none_or(|(least, _)| best.cost < least.cost) {
+                chosen = Some((best, centred));
+            }
+            // What a counter is off by under the likeliest of them it may not be under one whose phase lies between two commands.
+            let is_far = |(best, voters): &(Best, Vec<Voter>)| {
+                voters.iter().zip(&best.costs).any(|(voter, cost)| voter.is_far_at(*cost))
+            };
+            if !chosen.as_ref().is_some_and(is_far) {
+                break;
+            }
+        }
+        let Some((best, centred)) = chosen else { return Ok(Best::none()) };
         *voters = centred;
         Ok(best)
     }

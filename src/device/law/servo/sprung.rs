@@ -49,7 +49,8 @@ impl System<STATES> for Sprung {
     fn matrix(&self) -> SMatrix<f64, STATES, STATES> {
         let Sprung { servo, stiffness, damping, mass } = *self;
         let ([by_position, by_velocity, by_integrator], [first, second, third]) = (servo.forces(), servo.resets());
-        let speeds_up = [by_position, by_velocity, by_integrator, stiffness, damping].map(|force| force / servo.inertia);
+        let speeds_up =
+            [by_position, by_velocity, by_integrator, stiffness, damping].map(|force| force / servo.inertia);
         let hangs = [0.0, 0.0, 0.0, stiffness / mass, damping / mass];
         let gets_ahead = std::array::from_fn(|k| -speeds_up[k] - hangs[k]);
         let moves = [0.0, 1.0, 0.0, 0.0, 0.0];

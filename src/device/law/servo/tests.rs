@@ -4,8 +4,7 @@ use super::*;
 
 /// The axis of the rig: 25 1/s and 800 N·s/m, 20 kg, 50 N·s/m.
 fn rig(limit: f64) -> Servo {
-    let drive =
-        Loop { position_gain: 25.0 * 800.0, velocity_gain: 800.0, integral_time: None, limit, back_emf: 0.0 };
+    let drive = Loop { position_gain: 25.0 * 800.0, velocity_gain: 800.0, integral_time: None, limit, back_emf: 0.0 };
     Servo::new(drive, Mechanics { inertia: 20.0, viscous_friction: 50.0, load: 0.0, pendulum: 0.0 })
 }
 

@@ -1,0 +1,61 @@
+//! A second look about where a search ended: where the best single effect leaves much, a better place for it may lie behind a ridge.
+//!
+//! An axis that just comes to rest within its dead band, or just lets go, does another thing a hair beyond: the deviance has ridges, and nominal
+//! parameters that were fitted on the wrong side of one hold the effect there. So the effect's strength is tried at parts and multiples of what
+//! was found, beside nominal parameters as they are declared and as they were found, and what is best is fitted anew from there.
+
+use rayon::prelude::*;
+
+use super::bench::{Bench, Trial};
+use super::ladder::{Ladder, anew, settle};
+use super::starts::UNLIMITED;
+
+/// Parts and multiples of what was found.
+const MULTIPLES: [f64; 16] = [0.5, 0.65, 0.75, 0.8, 0.85, 0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0];
+/// How many of them are fitted.
+const FITTED: usize = 4;
+/// What is left must fall to this part of what was, in deviance: a little is what a fit gains anyhow.
+const WORTH: f64 = 0.8;
+
+/// Takes the one effect of the ladder to where it leaves less, if that is far from where it was found.
+pub fn seek_again(bench: &Bench<'_>, ladder: &mut Ladder) {
+    let [candidate] = ladder.best.set.as_slice() else { return };
+    let Some(free) = candidate.free.first() else { return };
+    if bench.is_rugged() || candidate.is_parameter_error() {
+        return;
+    }
+    let parameter = candidate.effect.parameters.iter().find(|of| of.name == free.name);
+    let nominal = parameter.map_or(0.0, |of| of.nominal);
+    let from = if nominal.abs() < UNLIMITED { nominal } else { 0.0 };
+    let (set, at) = (&ladder.best.set, &ladder.best.at);
+    let own = ladder.best.parameters();
+    let nuisances = [at[own..].to_vec(), bench.nominal(set)];
+    let place = |multiple: f64, nuisances: &Vec<f64>| {
+        let mut all = [&at[..own], nuisances].concat();
+        all[0] = (from + multiple * (at[0] - from)).clamp(free.range.least, free.range.greatest);
+        all
+    };
+    let places: Vec<Vec<f64>> = MULTIPLES
+        .iter()
+        .flat_map(|multiple| nuisances.each_ref().map(|nuisances| place(*multiple, nuisances)))
+        .collect();
+    // By noise alone: weighed by what is left of the place that was found, all others cost about the same.
+    let tried = places.into_par_iter().with_max_len(1).filter_map(|place| bench.trial(set, place));
+    let mut tried: Vec<Trial> = tried.collect();
+    tried.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    tried.truncate(FITTED);
+    let fitted = tried
+        .into_par_iter()
+        .with_max_len(1)
+        .filter_map(|trial| bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len())));
+    let Some(nearest) = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return };
+    let Some(before) = bench.trial(set, at.clone()) else { return };
+    if nearest.cost - ladder.floor.0 > WORTH * (before.cost - ladder.floor.0) {
+        return;
+    }
+    if let Some((trial, subject)) =
+        bench.tolerant(&nearest).and_then(|there| settle(bench, &bench.with(&there), &nearest, true))
+    {
+        (ladder.best, ladder.subject) = (trial, subject);
+    }
+}
