@@ -59,3 +59,28 @@ pub fn seek_again(bench: &Bench<'_>, ladder: &mut Ladder) {
         (ladder.best, ladder.subject) = (trial, subject);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::cause::axis_tests::{ending_at, report_as, rubbing_axis};
+
+    /// Friction of 80 N that a search left at half of it and at twice; where it is found there is nothing to be moved.
+    #[test]
+    fn what_was_found_on_the_wrong_side_is_found_again() {
+        let (mut subject, nominal, rubs) = rubbing_axis();
+        let stop = || false;
+        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&rubs, &[80.0]).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let ended = |at: f64| {
+            let mut ladder = ending_at(&bench, &nominal, bench.trial(&rubs, vec![at]).expect("a trial"));
+            seek_again(&bench, &mut ladder);
+            ladder.best.at[0]
+        };
+        for at in [40.0, 65.0, 160.0] {
+            assert!((ended(at) - 80.0).abs() < 0.1, "{at}: {}", ended(at));
+        }
+        assert_eq!(ended(80.0), 80.0);
+    }
+}

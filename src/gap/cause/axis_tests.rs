@@ -1,7 +1,10 @@
 //! An axis that rubs a little, as the tests of this module have it.
 
+use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
+use super::ladder::{Ladder, floor};
 use super::library::candidates;
+use super::unseen::Folds;
 use crate::gap::recorded_tests::{RUBBING_AXIS, study};
 use crate::gap::{Overrides, Predicted, Prediction, Subject};
 
@@ -20,5 +23,22 @@ pub fn report_as(subject: &mut Subject, prediction: &Prediction) {
         if let (Some(track), Predicted::Level(values)) = (track, predicted) {
             track.values.clone_from(values);
         }
+    }
+}
+
+/// A ladder that ends at such a set.
+pub fn ending_at(bench: &Bench<'_>, nominal: &Prediction, best: Trial) -> Ladder {
+    Ladder {
+        floor: floor(&bench.subject.score(nominal)),
+        bare: bench.trial(&[], Vec::new()).expect("a trial"),
+        beneath: 0.0,
+        best,
+        ends: None,
+        subject: bench.subject.clone(),
+        singles: Vec::new(),
+        near: Vec::new(),
+        tried: 0,
+        too_few_blocks: None,
+        folds: Folds::Long,
     }
 }

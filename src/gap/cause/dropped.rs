@@ -91,28 +91,8 @@ fn fitted_without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::Prediction;
-    use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
-    use crate::gap::cause::ladder::floor;
+    use crate::gap::cause::axis_tests::{ending_at, report_as, rubbing_axis};
     use crate::gap::cause::library::candidates;
-    use crate::gap::cause::unseen::Folds;
-
-    /// A ladder that ends at such a set.
-    fn ending_at(bench: &Bench<'_>, nominal: &Prediction, best: Trial) -> Ladder {
-        Ladder {
-            floor: floor(&bench.subject.score(nominal)),
-            bare: bench.trial(&[], Vec::new()).expect("a trial"),
-            beneath: 0.0,
-            best,
-            ends: None,
-            subject: bench.subject.clone(),
-            singles: Vec::new(),
-            near: Vec::new(),
-            tried: 0,
-            too_few_blocks: None,
-            folds: Folds::Long,
-        }
-    }
 
     /// Friction explains an axis to the last step; a lag beside it, as short as one may be, is none.
     #[test]
