@@ -2,7 +2,7 @@
 
 use crate::device::law::closing::Closing;
 use crate::device::law::moves;
-use crate::device::law::profile::{Limits, Profile};
+use crate::device::law::profile::{Limits, pursued};
 use crate::device::law::servo::{HIGHEST_RATE, Loop, Mechanics, Servo};
 use crate::device::law::slope::Slope;
 use crate::device::law::transition::Transitions;
@@ -425,7 +425,8 @@ impl ServoAxis {
         } else if bounds.acceleration.is_finite() {
             let target = &self.position_target;
             let target = Motion { position: before.position + error + target.lead(), velocity: target.rate() };
-            self.tracked = pursued(bounds, before, target, moment.span);
+            let limits = Limits { velocity: bounds.velocity, acceleration: bounds.acceleration };
+            self.tracked = pursued(limits, before, target, moment.span);
         } else if bounds.velocity.is_finite() {
             let most = bounds.velocity * moment.span;
             let step = error.clamp(-most, most);
@@ -441,19 +442,6 @@ impl ServoAxis {
         }
         stages.actuator.motion(self.tracked, moment)
     }
-}
-
-/// Where an axis is after `span` that was at `from` and pursues `target`, a motion of constant speed, as fast as its limits let
-/// it: as the target sees it, a way to rest at the target ([`Profile`]), in a frame that moves no faster than the axis may.
-fn pursued(bounds: Bounds, from: Motion, target: Motion, span: f64) -> Motion {
-    let most = bounds.velocity.min(1e9);
-    let pace = target.velocity.clamp(-most, most);
-    // What the frame's own speed leaves of the limit, on the side that the axis has to go to.
-    let ahead = target.position - from.position;
-    let limits = Limits { velocity: (most - pace * ahead.signum()).max(1e-9), acceleration: bounds.acceleration };
-    let mut profile = Profile::under_way(limits, from.position, from.velocity - pace, target.position);
-    profile.advance(span);
-    Motion { position: profile.position() + pace * span, velocity: profile.velocity() + pace }
 }
 
 /// To a part in 2³⁰: shifts that differ by rounding alone are one shift.

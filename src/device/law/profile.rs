@@ -8,6 +8,7 @@
 
 use super::SAME_INSTANT_S;
 use super::sum::Sum;
+use crate::device::path::Motion;
 
 /// What an axis may do: m/s and m/s², or rad/s and rad/s²; both above 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,6 +173,19 @@ impl Profile {
         }
         self.elapsed.state(visit);
     }
+}
+
+/// Where an axis is after `span` that was at `from` and pursues `target`, a motion of constant speed, as fast as its limits let
+/// it: as the target sees it, a way to rest at the target ([`Profile`]), in a frame that moves no faster than the axis may.
+pub fn pursued(within: Limits, from: Motion, target: Motion, span: f64) -> Motion {
+    let most = within.velocity.min(1e9);
+    let pace = target.velocity.clamp(-most, most);
+    // What the frame's own speed leaves of the limit, on the side that the axis has to go to.
+    let ahead = target.position - from.position;
+    let limits = Limits { velocity: (most - pace * ahead.signum()).max(1e-9), acceleration: within.acceleration };
+    let mut profile = Profile::under_way(limits, from.position, from.velocity - pace, target.position);
+    profile.advance(span);
+    Motion { position: profile.position() + pace * span, velocity: profile.velocity() + pace }
 }
 
 #[cfg(test)]
