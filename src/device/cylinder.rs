@@ -181,7 +181,6 @@ impl Cylinder {
     /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage nobody knows but at rest.
     pub fn unchanged_for(&self) -> f64 {
         let is_at_rest = match self.valve {
-            _ if self.lagging().is_some_and(|lagging| lagging.asked != 0.0) => false,
             Drive::Hold => self.speed == 0.0,
             valve => self.stroke.steady(valve) <= 0.0,
         };

@@ -285,10 +285,11 @@ impl ServoAxis {
         self.exertion.bounds = servo_path::bounds(stages, &self.nominal, self.motion(), moment);
         let piece = self.piece(stages, start);
         self.close_loop(piece, stages, start);
+        let Some(ahead) = stages.transmission.spring().map(|spring| spring.ahead) else { return false };
         let before = self.servo;
         let ServoAxis { servo, nominal, exertion, transitions, .. } = self;
-        let Some(ahead) = (Way { servo, nominal, exertion, stages, transitions }).leap(moment) else { return false };
-        if self.piece(stages, moment) != piece {
+        let moves = Way { servo, nominal, exertion, stages, transitions }.leap(moment);
+        if !moves || self.piece(stages, moment) != piece {
             self.servo = before;
             if let Some(spring) = stages.transmission.spring() {
                 spring.ahead = ahead;

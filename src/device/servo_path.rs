@@ -69,46 +69,36 @@ impl Way<'_> {
         }
     }
 
-    /// Moves the axis together with the spring that hangs on it by the whole stretch that ends at `moment`: returns where the load was
-    /// ahead of the axis before. `None`, and nothing moved, where a limit is met on the way, where friction holds it or changes, and
-    /// where what reaches the axis is not what the drive exerts.
-    pub fn leap(&mut self, moment: Moment) -> Option<Motion> {
+    /// Moves the axis together with the spring that hangs on it by the whole stretch that ends at `moment`. Returns false where a limit is
+    /// met on the way, where friction holds it or changes, and where what reaches the axis is not what the drive exerts: where both are
+    /// then is nowhere, and they are to be put back.
+    pub fn leap(&mut self, moment: Moment) -> bool {
         let Way { servo, nominal, exertion, stages, .. } = self;
         if stages.shapes_effort() || exertion.bounds.acceleration.is_finite() {
-            return None;
+            return false;
         }
-        let before = **servo;
         let motion = Motion { position: servo.position(), velocity: servo.velocity() };
         let Mechanics { inertia, viscous_friction, load, pendulum } = nominal.mechanics;
         let burden = stages.load.burden(Burden { inertia, force: load }, motion, moment);
-        let spring = stages.transmission.spring()?;
-        let (ahead, pull) = (spring.ahead, spring.pull());
+        let Some(spring) = stages.transmission.spring() else { return false };
         let bare = Mechanics { inertia: burden.inertia - spring.mass, viscous_friction, load: burden.force, pendulum };
-        servo.burden(Mechanics { load: bare.load - pull, ..bare });
+        let pulled = Mechanics { load: bare.load - spring.pull(), ..bare };
+        servo.burden(pulled);
         servo.limit(exertion.bounds.force);
         let effort = effort_of(servo, servo.force(), 1.0);
         let base = Friction { sliding: 0.0, sticking: 0.0, viscous: viscous_friction };
         let friction = stages.mechanics.friction(base, motion, effort);
-        let way = motion.velocity.signum();
-        let may_stick = friction.sliding.max(friction.sticking) > 0.0;
         let is_even = stages.mechanics.uneven(effort) == 0.0 && stages.actuator.strength(servo.force()) == 1.0;
-        let slides = !may_stick || motion.velocity != 0.0;
-        let moves = is_even && slides && {
-            let load = bare.load + if may_stick { way * friction.sliding } else { 0.0 };
-            servo.burden(Mechanics { viscous_friction: friction.viscous, load, ..bare });
-            let moves = stages.transmission.spring().is_some_and(|spring| servo.leap_with(spring, moment.span));
-            moves && (!may_stick || servo.velocity() * way > 0.0)
-        };
-        if moves {
-            exertion.passed = servo.force();
-            servo.burden(Mechanics { load: bare.load - pull, ..bare });
-            return Some(ahead);
+        let may_stick = friction.sliding.max(friction.sticking) > 0.0;
+        let way = motion.velocity.signum();
+        if !is_even || may_stick && motion.velocity == 0.0 {
+            return false;
         }
-        **servo = before;
-        if let Some(spring) = stages.transmission.spring() {
-            spring.ahead = ahead;
-        }
-        None
+        let load = bare.load + if may_stick { way * friction.sliding } else { 0.0 };
+        servo.burden(Mechanics { viscous_friction: friction.viscous, load, ..bare });
+        let moves = stages.transmission.spring().is_some_and(|spring| servo.leap_with(spring, moment.span));
+        servo.burden(pulled);
+        moves && (!may_stick || servo.velocity() * way > 0.0)
     }
 
     /// Moves by at most `moment.span`, no further than to where the motion comes to rest; returns how long that took.

@@ -115,10 +115,8 @@ impl Stage for Compliance {
         if !self.pulls || self.is_rigid() {
             return burden;
         }
-        let Spring { stiffness, damping, mass, .. } = self.spring;
-        let middle = self.after(0.5 * moment.span, self.acceleration);
-        let pull = stiffness * middle.position + damping * middle.velocity;
-        Burden { inertia: burden.inertia - mass, force: burden.force - pull }
+        let pull = self.spring.pull_of(self.after(0.5 * moment.span, self.acceleration));
+        Burden { inertia: burden.inertia - self.spring.mass, force: burden.force - pull }
     }
 
     fn motion(&mut self, motion: Motion, moment: Moment) -> Motion {

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::ladder::{Ladder, anew, settle};
+use super::remainder::{Left, left_by};
 use super::starts::UNLIMITED;
 
 /// Parts and multiples of what was found.
@@ -17,11 +18,12 @@ const FITTED: usize = 4;
 /// What is left must fall to this part of what was, in deviance: a little is what a fit gains anyhow.
 const WORTH: f64 = 0.8;
 
-/// Takes the one effect of the ladder to where it leaves less, if that is far from where it was found.
+/// Takes the one effect of the ladder, if it leaves something, to where it leaves less.
 pub fn seek_again(bench: &Bench<'_>, ladder: &mut Ladder) {
     let [candidate] = ladder.best.set.as_slice() else { return };
     let Some(free) = candidate.free.first() else { return };
-    if bench.is_rugged() || candidate.is_parameter_error() {
+    let is_apt = !bench.is_rugged() && !candidate.is_parameter_error();
+    if !is_apt || left_by(bench, &ladder.best, &ladder.bare.at) == Left::Nothing {
         return;
     }
     let parameter = candidate.effect.parameters.iter().find(|of| of.name == free.name);

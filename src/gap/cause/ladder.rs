@@ -131,7 +131,7 @@ pub fn climb(
         let mut end = Rung::Taken;
         while end == Rung::Taken && ladder.best.set.len() < MOST_EFFECTS && !bench.is_stopped() {
             end = step(bench, &mut ladder, is_asked, tell);
-            if end == Rung::Taken && left_by(bench, &ladder.best, &ladder.bare.at) != Left::Nothing {
+            if end == Rung::Taken {
                 seek_again(bench, &mut ladder);
             }
         }

@@ -72,7 +72,12 @@ impl Spring {
 
     /// What it does to the axis now, N or N·m.
     pub fn pull(&self) -> f64 {
-        self.stiffness * self.ahead.position + self.damping * self.ahead.velocity
+        self.pull_of(self.ahead)
+    }
+
+    /// The same where the load is so far ahead.
+    pub fn pull_of(&self, ahead: Motion) -> f64 {
+        self.stiffness * ahead.position + self.damping * ahead.velocity
     }
 
     /// A bound of the rates at which it swings behind an axis of `inertia`, 1/s.
@@ -115,28 +120,20 @@ mod tests {
 
     use super::*;
     use crate::device::law::servo::Loop;
+    use crate::device::law::servo::tests::runge_kutta;
 
     /// Position, velocity, integrator, ahead, getting ahead: the equations by themselves.
     fn by_runge_kutta(servo: &Servo, spring: &Spring, seconds: f64, steps: u32) -> [f64; STATES] {
         let slopes = |y: [f64; STATES]| {
             let mut there = *servo;
             (there.position, there.velocity, there.integral) = (y[0], y[1], y[2]);
-            let pull = spring.stiffness * y[3] + spring.damping * y[4];
+            let pull = spring.pull_of(Motion { position: y[3], velocity: y[4] });
             let acceleration = (there.force() - there.resistance() + pull) / there.mechanics.inertia;
             let reset = there.drive.integral_time.filter(|_| there.torque).map_or(0.0, |time| 1.0 / time);
             [y[1], acceleration, (there.force() - y[2]) * reset, y[4], -acceleration - pull / spring.mass]
         };
-        let h = seconds / f64::from(steps);
-        let mut y = [servo.position, servo.velocity, servo.integral, spring.ahead.position, spring.ahead.velocity];
-        let ahead = |y: [f64; STATES], by: [f64; STATES], h: f64| std::array::from_fn(|k| y[k] + h * by[k]);
-        for _ in 0..steps {
-            let first = slopes(y);
-            let second = slopes(ahead(y, first, 0.5 * h));
-            let third = slopes(ahead(y, second, 0.5 * h));
-            let fourth = slopes(ahead(y, third, h));
-            y = std::array::from_fn(|k| y[k] + h / 6.0 * (first[k] + 2.0 * (second[k] + third[k]) + fourth[k]));
-        }
-        y
+        let start = [servo.position, servo.velocity, servo.integral, spring.ahead.position, spring.ahead.velocity];
+        runge_kutta(start, slopes, seconds, steps)
     }
 
     proptest! {

@@ -33,30 +33,36 @@ fn under_a_force_that_nothing_changes_it_glides_as_its_series_has_it() {
     }
 }
 
-/// The same motion by a method of its own: classical Runge-Kutta in steps so short that a limit taken within one
-/// does not matter.
+/// Where a state is after `seconds` that moves by these slopes: classical Runge-Kutta, in steps so short that a limit taken within one does
+/// not matter.
+pub(super) fn runge_kutta<const STATES: usize>(
+    start: [f64; STATES],
+    slopes: impl Fn([f64; STATES]) -> [f64; STATES],
+    seconds: f64,
+    steps: u32,
+) -> [f64; STATES] {
+    let h = seconds / f64::from(steps);
+    let ahead = |state: [f64; STATES], by: [f64; STATES], h: f64| std::array::from_fn(|k| state[k] + h * by[k]);
+    (0..steps).fold(start, |state, _| {
+        let first = slopes(state);
+        let second = slopes(ahead(state, first, 0.5 * h));
+        let third = slopes(ahead(state, second, 0.5 * h));
+        let fourth = slopes(ahead(state, third, h));
+        std::array::from_fn(|k| state[k] + h / 6.0 * (first[k] + 2.0 * (second[k] + third[k]) + fourth[k]))
+    })
+}
+
+/// The same motion by a method of its own: position, velocity and integrator.
 fn by_runge_kutta(servo: &Servo, seconds: f64, steps: u32) -> (f64, f64, f64) {
-    let slope = |(x, v, i): (f64, f64, f64)| {
+    let slopes = |[x, v, i]: [f64; 3]| {
         let demand = servo.reference - servo.drive.position_gain * x - servo.drive.velocity_gain * v + i;
         let force = if servo.torque { demand.clamp(-servo.drive.limit, servo.drive.limit) } else { 0.0 };
         let Mechanics { inertia, viscous_friction, load, pendulum } = servo.mechanics;
         let resistance = viscous_friction * v + load + pendulum * GRAVITY * x.sin();
         let reset = servo.drive.integral_time.map_or(0.0, |time| (force - i) / time);
-        (v, (force - resistance) / inertia, reset)
+        [v, (force - resistance) / inertia, reset]
     };
-    let add = |a: (f64, f64, f64), b: (f64, f64, f64), h: f64| (a.0 + h * b.0, a.1 + h * b.1, a.2 + h * b.2);
-    let mut state = (servo.position, servo.velocity, servo.integral);
-    let h = seconds / f64::from(steps);
-    for _ in 0..steps {
-        let k1 = slope(state);
-        let k2 = slope(add(state, k1, h / 2.0));
-        let k3 = slope(add(state, k2, h / 2.0));
-        let k4 = slope(add(state, k3, h));
-        for (k, weight) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
-            state = add(state, k, h * weight / 6.0);
-        }
-    }
-    state
+    runge_kutta([servo.position, servo.velocity, servo.integral], slopes, seconds, steps).into()
 }
 
 #[test]
