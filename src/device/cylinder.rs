@@ -2,8 +2,8 @@
 
 use super::law::lagging::Lagging;
 use super::law::stroke::{Drive, Stroke, StrokeSettings};
-use super::law::{SAME_INSTANT_S, SAME_VALUE};
-use super::path::{Bounds, Moment, Motion, Stages};
+use super::law::{SAME_INSTANT_S, SAME_VALUE, STANDSTILL};
+use super::path::{Bounds, Moment, Motion, STRETCH_S, Stages};
 
 /// A cylinder, its piston and its rod. They part only where a stage of the transmission says so.
 #[derive(Clone, Debug)]
@@ -162,14 +162,16 @@ impl Cylinder {
 
     /// For how long it goes on as it does, s.
     fn steady(&self) -> f64 {
-        if let Some(lagging) = self.lagging() {
-            let StrokeSettings { length, limit_tolerance, .. } = self.settings;
-            return lagging.next(&[0.0, limit_tolerance, length - limit_tolerance, length]);
-        }
-        match self.valve {
-            Drive::Hold if self.speed != 0.0 => self.speed.abs() / self.coasting,
-            valve => self.stroke.steady(valve),
-        }
+        let StrokeSettings { length, limit_tolerance, .. } = self.settings;
+        let (steady, speed_changes) = match (self.lagging(), self.valve) {
+            (Some(lagging), _) => {
+                (lagging.next(&[0.0, limit_tolerance, length - limit_tolerance, length]), lagging.is_under_way())
+            }
+            (None, Drive::Hold) if self.speed != 0.0 => (self.speed.abs() / self.coasting, true),
+            (None, valve) => (self.stroke.steady(valve), false),
+        };
+        // Other stages foresee their changes by the speed of now.
+        if speed_changes && self.stages.count() > 1 { steady.min(STRETCH_S) } else { steady }
     }
 
     /// See [`Device::rests`](super::Device::rests).
@@ -178,23 +180,41 @@ impl Cylinder {
         self.stages.is_nominal() && is_held
     }
 
-    /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage nobody knows but at rest.
+    /// For how long at least its rod stays within the tolerance of an end or not, and moving or not, s. Behind a stage that does not bear any
+    /// stretch nobody knows, nor behind one of an uneven transmission, nor behind two while its speed changes.
     pub fn unchanged_for(&self) -> f64 {
+        let stays = self.stages.unchanged_for();
         let is_at_rest = match self.valve {
             Drive::Hold => self.speed == 0.0,
             valve => self.stroke.steady(valve) <= 0.0,
         };
-        let (way, speed) = match self.valve {
-            _ if !self.stages.is_nominal() => return if is_at_rest { self.stages.unchanged_for() } else { 0.0 },
-            Drive::Hold => return f64::INFINITY,
-            Drive::Extend => (1.0, self.settings.extend_speed),
-            Drive::Retract => (-1.0, self.settings.retract_speed),
-        };
+        if is_at_rest || stays <= 0.0 {
+            return stays;
+        }
+        if !self.stages.transmission.is_even() {
+            return 0.0;
+        }
         let StrokeSettings { length, limit_tolerance, .. } = self.settings;
-        let ahead = [0.0, limit_tolerance, length - limit_tolerance, length];
-        let ahead = ahead.map(|place| way * (place - self.stroke.position()) + 2.0 * SAME_VALUE);
-        let next = ahead.into_iter().filter(|ahead| *ahead >= 0.0).fold(f64::INFINITY, f64::min);
-        ((next - 4.0 * SAME_VALUE) / speed - SAME_INSTANT_S).max(0.0)
+        let places = [0.0, limit_tolerance, length - limit_tolerance, length];
+        let next = match self.lagging().filter(Lagging::is_under_way) {
+            Some(_) if self.stages.count() > 1 => return 0.0,
+            Some(lagging) => {
+                let [before, behind] = [-1.0, 1.0].map(|side| places.map(|place| place + side * 4.0 * SAME_VALUE));
+                lagging.next(&before).min(lagging.next(&behind)).min(lagging.passes(STANDSTILL, 4.0 * SAME_VALUE))
+            }
+            None if self.valve == Drive::Hold => return 0.0,
+            None => {
+                let Motion { position, velocity } = self.rod();
+                let ahead = places.map(|place| velocity.signum() * (place - position) + 2.0 * SAME_VALUE);
+                let next = ahead.into_iter().filter(|ahead| *ahead >= 0.0).fold(f64::INFINITY, f64::min);
+                // Without any of its own a rod is as long under way as its piston.
+                let passes = if velocity == 0.0 { f64::INFINITY } else { (next - 4.0 * SAME_VALUE) / velocity.abs() };
+                passes.min(self.stroke.steady(self.valve))
+            }
+        };
+        // Stages take what is all but there for there.
+        let soon = 2.0 * (SAME_VALUE / self.rod().velocity.abs().max(self.speed.abs())).min(STRETCH_S);
+        (stays - soon).min(next - 2.0 * SAME_INSTANT_S).max(0.0)
     }
 
     /// It pushes so many parts.

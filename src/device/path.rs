@@ -113,6 +113,11 @@ pub trait Stage: Send + Sync + fmt::Debug {
         STRETCH_S
     }
 
+    /// Whether a motion of constant speed leaves the stage with a constant speed, until a change that it foresees.
+    fn is_even(&self) -> bool {
+        false
+    }
+
     /// The longest stretch that the stage bears on an axis that is moved together with the spring that hangs on it, s.
     fn leap(&self) -> f64 {
         self.stretch()
@@ -350,6 +355,11 @@ impl Path {
         self.stages.iter().map(|stage| stage.stretch()).fold(f64::INFINITY, f64::min)
     }
 
+    /// See [`Stage::is_even`]; of all.
+    pub fn is_even(&self) -> bool {
+        self.stages.iter().all(|stage| stage.is_even())
+    }
+
     /// See [`Stage::leap`]; the same of all.
     fn leap(&self) -> f64 {
         self.stages.iter().map(|stage| stage.leap()).fold(f64::INFINITY, f64::min)
@@ -442,6 +452,11 @@ impl Stages {
     /// Whether nothing stands anywhere: the nominal law alone holds.
     pub fn is_nominal(&self) -> bool {
         !self.has_any
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.paths().iter().map(|path| path.stages.len()).sum()
     }
 
     /// See [`Path::shapes_effort`], of the actuator.

@@ -1,12 +1,15 @@
 //! `backlash`: the load follows only after the gap between the flanks is crossed: |load − motor| ≤ gap/2, and the load
 //! stays where it is while nothing drags it. It stands in the middle of the gap to begin with.
 //!
+//! On a cylinder, which turns round in no stretch, it bears any.
+//!
 //! Source: the play operator (M. Nordin, P.-O. Gutman, Controlling mechanical systems with backlash: a survey, Automatica
 //! 38, 2002, section 2.1, the friction-driven hysteresis model).
 
 use super::play::Play;
 use super::table::{BASE, TRAVEL, parameter};
-use crate::device::path::{Moment, Motion, Stage};
+use crate::device::law::{SAME_INSTANT_S, SAME_VALUE};
+use crate::device::path::{Moment, Motion, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor};
 use crate::plant::EffectPlace;
 
@@ -19,7 +22,10 @@ pub static EFFECT: EffectDescriptor = EffectDescriptor {
     places: &[EffectPlace::Transmission],
     parameters: &[parameter("gap", TRAVEL, (0.0, 1e3), 0.0, 0.01, "the whole gap, from flank to flank")],
     excited_by: "reversals",
-    build: Build::Stage(|values, _| Box::new(Backlash { play: Play::new(values[0]), gap: values[0], met: None })),
+    build: Build::Stage(|values, site| {
+        let stretch = if site.is_stroke() { f64::INFINITY } else { STRETCH_S };
+        Box::new(Backlash { play: Play::new(values[0]), gap: values[0], met: None, stretch })
+    }),
     ..BASE
 };
 
@@ -29,11 +35,21 @@ struct Backlash {
     play: Play,
     /// When the flanks meet if the motor goes on at its speed.
     met: Option<f64>,
+    /// The longest stretch that it bears, s.
+    stretch: f64,
 }
 
 impl Stage for Backlash {
     fn boxed(&self) -> Box<dyn Stage> {
         Box::new(self.clone())
+    }
+
+    fn stretch(&self) -> f64 {
+        self.stretch
+    }
+
+    fn is_even(&self) -> bool {
+        true
     }
 
     fn next_change(&self) -> Option<f64> {
@@ -44,8 +60,10 @@ impl Stage for Backlash {
         if self.gap == 0.0 {
             return motion;
         }
-        let (position, is_dragged) = self.play.pass(motion.position);
+        let position = self.play.pass(motion.position);
         let left = 0.5 * self.gap - (motion.position - position) * motion.velocity.signum();
+        // An instant so near that time would not move is now.
+        let is_dragged = left <= SAME_VALUE.max(SAME_INSTANT_S * motion.velocity.abs());
         self.met = (!is_dragged && motion.velocity != 0.0).then(|| moment.now + left / motion.velocity.abs());
         Motion { position, velocity: if is_dragged { motion.velocity } else { 0.0 } }
     }
@@ -66,6 +84,18 @@ mod tests {
         for (target, position) in [(0.5, 0.49), (0.485, 0.49), (0.2, 0.21), (0.215, 0.21), (0.3, 0.29)] {
             robot.check(&[("XTarget", target)], 2.0, &[("actualPosX", position), ("cartesianArrived", 1.0)]);
         }
+    }
+
+    #[test]
+    fn a_rod_stands_from_when_its_piston_turns_round_until_the_gap_is_crossed() {
+        let gap = spec("transmission", "backlash", None, &[("gap", 0.02)]);
+        let mut pusher = with("Pusher", &[], &[gap]);
+        // The first half of the gap at 0.5 m/s; all of it on the way back.
+        pusher.check(&[("command", 1.0)], 0.0199, &[("isRunning", 0.0)]);
+        pusher.check(&[], 0.4, &[("isRunning", 1.0)]);
+        pusher.check(&[("command", 2.0)], 0.0, &[("isRunning", 0.0)]);
+        pusher.check(&[], 0.0399, &[("isRunning", 0.0)]);
+        pusher.check(&[], 0.0002, &[("isRunning", 1.0)]);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use super::table::{BASE, ONE, parameter};
 use super::way::Way;
-use crate::device::path::{Moment, Stage};
+use crate::device::path::{Moment, STEPS_STRETCH_S, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass};
 use crate::plant::EffectPlace;
 
@@ -36,6 +36,10 @@ struct BlindRange {
 impl Stage for BlindRange {
     fn boxed(&self) -> Box<dyn Stage> {
         Box::new(self.clone())
+    }
+
+    fn stretch(&self) -> f64 {
+        if self.way.is_some() { STEPS_STRETCH_S } else { STRETCH_S }
     }
 
     fn next_change(&self) -> Option<f64> {

@@ -5,7 +5,7 @@
 //! transient left out.
 
 use super::table::{BASE, LENGTH, ONE, parameter};
-use crate::device::law::SAME_VALUE;
+use crate::device::law::{SAME_INSTANT_S, SAME_VALUE};
 use crate::device::path::{Moment, Motion, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit};
 use crate::plant::EffectPlace;
@@ -44,10 +44,15 @@ impl Stage for EndCushioning {
         Box::new(self.clone())
     }
 
+    fn stretch(&self) -> f64 {
+        f64::INFINITY
+    }
+
     fn reference(&mut self, reference: f64, motion: Motion, moment: Moment) -> f64 {
         let left = if reference < 0.0 { motion.position } else { self.stroke - motion.position };
         let until = left - self.length;
-        if until <= SAME_VALUE {
+        // An instant so near that time would not move is now.
+        if until <= SAME_VALUE.max(SAME_INSTANT_S * reference.abs()) {
             self.entry = None;
             return self.ratio * reference;
         }

@@ -7,7 +7,7 @@
 use super::play::Play;
 use super::table::{BASE, ONE, parameter};
 use super::way::Way;
-use crate::device::path::{Moment, Stage};
+use crate::device::path::{Moment, STEPS_STRETCH_S, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit, SignalClass};
 use crate::plant::EffectPlace;
 
@@ -47,6 +47,10 @@ impl Stage for Hysteresis {
         Box::new(self.clone())
     }
 
+    fn stretch(&self) -> f64 {
+        if self.way.is_some() { STEPS_STRETCH_S } else { STRETCH_S }
+    }
+
     fn next_change(&self) -> Option<f64> {
         self.way.as_ref().and_then(Way::next)
     }
@@ -60,7 +64,7 @@ impl Stage for Hysteresis {
     fn signal(&mut self, value: f64, moment: Moment) -> f64 {
         match &mut self.way {
             Some(way) => f64::from(u8::from(way.pass(value != 0.0, moment.now))),
-            None => self.play.pass(value).0,
+            None => self.play.pass(value),
         }
     }
 

@@ -1,8 +1,6 @@
 //! The play operator: an output that is dragged along by an input with a gap between them (M. A. Krasnosel'skii,
 //! A. V. Pokrovskii, Systems with Hysteresis, Springer 1989, section 2).
 
-use crate::device::law::SAME_VALUE;
-
 /// An output in the middle of its gap to begin with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Play {
@@ -16,13 +14,13 @@ impl Play {
         Play { gap, output: None }
     }
 
-    /// The output, and whether the input drags it now.
-    pub fn pass(&mut self, input: f64) -> (f64, bool) {
+    /// The output.
+    pub fn pass(&mut self, input: f64) -> f64 {
         let half = 0.5 * self.gap;
         let before = *self.output.get_or_insert(input);
         let output = before.clamp(input - half, input + half);
         self.output = Some(output);
-        (output, (output - input).abs() >= half - SAME_VALUE)
+        output
     }
 
     pub fn state(&self, visit: &mut dyn FnMut(f64)) {

@@ -1,6 +1,7 @@
 //! A boolean sensor that follows only after a way: what it looks along must move on before it sees a change.
 
 use crate::device::law::SAME_VALUE;
+use crate::device::path::STRETCH_S;
 
 /// A switch with a way of its own.
 #[derive(Clone, Debug)]
@@ -15,7 +16,7 @@ pub(super) struct Way {
     travel: f64,
     /// When it was last asked, and where it stood then.
     before: Option<(f64, f64)>,
-    /// When the way will be over if it goes on as it went.
+    /// When the way will be over if it goes on as it went, or when that is to be asked again; none while nothing is waited for.
     due: Option<f64>,
 }
 
@@ -42,10 +43,12 @@ impl Way {
         let left = self.length - (self.travel - from).abs();
         if input == self.late && left > SAME_VALUE {
             // At the speed of the time since it was asked before.
-            self.due = before.and_then(|(then, travel)| {
+            let due = before.and_then(|(then, travel)| {
                 let gone = (self.travel - travel).abs();
                 (now > then && gone > 0.0).then(|| now + left * (now - then) / gone)
             });
+            // Its speed may change until then.
+            self.due = Some((now + STRETCH_S).min(due.unwrap_or(f64::INFINITY)));
             return exit;
         }
         self.exit = Some(input);
@@ -53,7 +56,7 @@ impl Way {
         input
     }
 
-    /// When it will change, if what it looks along goes on as it went.
+    /// When it will change, if what it looks along goes on as it went, or is to be asked again.
     pub fn next(&self) -> Option<f64> {
         self.due
     }

@@ -8,8 +8,8 @@
 
 use crate::device::path::Motion;
 
-/// How often the instant at which a place is reached is halved: to the last digits of a time.
-const HALVINGS: u32 = 60;
+/// How many steps the instant at which a place is reached takes at most: where it all but turns round there each halves what is left.
+const STEPS: u32 = 60;
 /// After so many time constants nothing of the speed at first is left.
 const LONG: f64 = 50.0;
 
@@ -36,6 +36,22 @@ impl Lagging {
         }
     }
 
+    /// Whether its speed still changes.
+    pub fn is_under_way(&self) -> bool {
+        self.from.velocity != self.asked
+    }
+
+    /// For how long at least its speed does not come within `unsure` of passing `speed`, either way; s.
+    pub fn passes(&self, speed: f64, unsure: f64) -> f64 {
+        let Lagging { from, asked, time_constant } = *self;
+        let reached = |speed: f64| {
+            let left = (speed - asked) / (from.velocity - asked);
+            if left > 0.0 && left <= 1.0 { -time_constant * left.ln() } else { f64::INFINITY }
+        };
+        let edges = [-1.0, 1.0].map(|side| speed + side * unsure);
+        edges.into_iter().flat_map(|edge| [reached(edge), reached(-edge)]).fold(f64::INFINITY, f64::min)
+    }
+
     /// For how long it goes the way that it goes now, s; infinite where it does not turn round.
     fn turns_after(&self) -> f64 {
         let Lagging { from, asked, time_constant } = *self;
@@ -44,31 +60,41 @@ impl Lagging {
 
     /// When it first turns round, or reaches one of `places` that lie on its way, s; infinite where it does neither.
     pub fn next(&self, places: &[f64]) -> f64 {
-        let Lagging { from, asked, time_constant } = *self;
+        let Lagging { from, asked, .. } = *self;
         let way = if from.velocity == 0.0 { asked } else { from.velocity }.signum();
+        let ahead = places.iter().map(|place| way * (place - from.position)).filter(|left| *left > 0.0);
         let turns = self.turns_after();
-        let reach = |place: &f64| {
-            let left = way * (place - from.position);
-            if left <= 0.0 || (from.velocity == 0.0 && asked == 0.0) {
-                return f64::INFINITY;
-            }
-            let last = match turns.is_finite() {
-                true => turns,
-                false if asked == 0.0 => LONG * time_constant,
-                false => (left + (from.velocity - asked).abs() * time_constant) / asked.abs(),
-            };
-            let is_there = |seconds: f64| way * (self.after(seconds).position - from.position) >= left;
-            if !is_there(last) {
-                return f64::INFINITY;
-            }
-            let (mut before, mut there) = (0.0, last);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (before + there);
-                if is_there(middle) { there = middle } else { before = middle }
-            }
-            there
+        turns.min(self.gone(way, ahead.fold(f64::INFINITY, f64::min), turns))
+    }
+
+    /// When it has gone `left` metres its `way`, s; infinite where it never does, or not before it `turns`.
+    ///
+    /// By Newton's steps from the side from which they never pass the instant: speeds up, from beyond it, slows down, from now.
+    fn gone(&self, way: f64, left: f64, turns: f64) -> f64 {
+        let Lagging { from, asked, time_constant } = *self;
+        if left.is_infinite() || (from.velocity == 0.0 && asked == 0.0) {
+            return f64::INFINITY;
+        }
+        let last = match turns.is_finite() {
+            true => turns,
+            false if asked == 0.0 => LONG * time_constant,
+            false => (left + (from.velocity - asked).abs() * time_constant) / asked.abs(),
         };
-        places.iter().map(reach).fold(turns, f64::min)
+        let missing = |motion: Motion| left - way * (motion.position - from.position);
+        if missing(self.after(last)) > 0.0 {
+            return f64::INFINITY;
+        }
+        let slows_down = way * (asked - from.velocity) < 0.0;
+        let mut at = if slows_down { 0.0 } else { last };
+        for _ in 0..STEPS {
+            let motion = self.after(at);
+            let step = missing(motion) / (way * motion.velocity);
+            if !step.is_finite() || step.abs() <= f64::EPSILON * last {
+                break;
+            }
+            at = (at + step).clamp(0.0, last);
+        }
+        at
     }
 }
 
@@ -107,5 +133,34 @@ mod tests {
         // Let go, it comes 0.05 m further and no more.
         assert!(at(0.5, 0.0).next(&[0.0501]).is_infinite() && at(0.5, 0.0).next(&[0.0499]).is_finite());
         assert!(at(0.0, 0.0).next(&[0.1]).is_infinite());
+    }
+
+    #[test]
+    fn wherever_it_goes_it_is_there_when_it_says_so_and_not_before() {
+        for velocity in [-0.7, -3e-6, 0.0, 3e-6, 0.3, 0.6, 2.0] {
+            for asked in [-0.4, -1e-3, 0.0, 0.5] {
+                for place in [-0.3, -0.05, -1e-7, 1e-7, 0.01, 0.0499, 0.21] {
+                    let lagging = at(velocity, asked);
+                    let (next, turns) = (lagging.next(&[place]), lagging.turns_after());
+                    let gone = |share: f64| lagging.after(share * next).position;
+                    if next < turns {
+                        assert!((gone(1.0) - place).abs() < 1e-12, "{velocity} {asked} {place}: {next}");
+                        let before = (0..100).map(|part| gone(f64::from(part) / 100.0));
+                        assert!(
+                            before.into_iter().all(|gone| (gone < place) == (place > 0.0)),
+                            "{velocity} {asked} {place}"
+                        );
+                    } else {
+                        // It is never there on this way: looked for by small steps, to beyond all that it does of itself.
+                        let last = turns.min(5.0);
+                        let is_there = |part: u32| {
+                            let at = lagging.after(last * f64::from(part) / 20_000.0).position;
+                            (at >= place) == (place > 0.0)
+                        };
+                        assert!(!(0..20_000).any(is_there), "{velocity} {asked} {place}: {next}");
+                    }
+                }
+            }
+        }
     }
 }
