@@ -138,7 +138,7 @@ pub fn taken(script: &[Command], plant: &Plant, around: &Surroundings, end: f64,
             .for_each(|command| stream.push(command.at, command.value));
         let of_device = Quirks::of(quirks, device);
         for quirk in of_device.at("command-link", port) {
-            stream = stream.through(quirk, *kind == Kind::Flag, dice, end);
+            stream = stream.through(quirk, *kind, dice, end);
         }
         let name = arrives_at(quirks, name);
         let value = |value: f64| if *kind == Kind::Code { value.round() } else { value };
@@ -212,9 +212,8 @@ pub fn reported(
     end: f64,
     dice: &mut Dice,
 ) -> Stream {
-    let is_flag = signal.kind == Kind::Flag;
     let way = way(quirks, signal, around);
-    way.iter().fold(stream, |stream, quirk| stream.through(quirk, is_flag, dice, end))
+    way.iter().fold(stream, |stream, quirk| stream.through(quirk, signal.kind, dice, end))
 }
 
 /// Exchanges what stands for two signals whose reports are swapped.

@@ -1,6 +1,7 @@
 //! A signal over time, and what happens to it on its way: sensors and links.
 
 use crate::chance::Dice;
+use crate::plant::Kind;
 use crate::quirk::Quirk;
 use crate::switch::Delay;
 
@@ -52,8 +53,9 @@ impl Stream {
         }
     }
 
-    /// What comes out of `quirk`, at a sensor or on a link, until `end`.
-    pub fn through(self, quirk: &Quirk, is_flag: bool, dice: &mut Dice, end: f64) -> Stream {
+    /// What comes out of `quirk`, at a sensor of this `kind` or on a link, until `end`.
+    pub fn through(self, quirk: &Quirk, kind: Kind, dice: &mut Dice, end: f64) -> Stream {
+        let is_flag = kind == Kind::Flag;
         let value = |name: &str| quirk.value(name);
         match quirk.effect.as_str() {
             "dead-time" => self.later(|at| at + value("time")),
@@ -70,7 +72,7 @@ impl Stream {
             "stuck" => self.stuck(value("value"), value("from")),
             "stale-hold" => self.held(value("time"), 0.0, end, |_| true),
             "intermittent" => self.away(value("time"), end, || dice.is_so(value("probability"))),
-            "input-filter" if is_flag => self.delayed(value("time_constant"), value("time_constant")),
+            "input-filter" if kind.is_edge() => self.stood(value("time_constant")),
             "input-filter" => self.filtered(value("time_constant"), end),
             "on-delay" => self.delayed(value("time"), 0.0),
             "off-delay" => self.delayed(0.0, value("time")),
@@ -178,6 +180,20 @@ impl Stream {
         out
     }
 
+    /// What has stood for `time`.
+    fn stood(self, time: f64) -> Stream {
+        let mut out = Stream::new(true);
+        for (k, &(at, value)) in self.points.iter().enumerate() {
+            let next = self.points.get(k + 1).map_or(f64::INFINITY, |(at, _)| *at);
+            match k {
+                0 => out.push(at, value),
+                _ if next > at + time => out.push(at + time, value),
+                _ => {}
+            }
+        }
+        out
+    }
+
     fn bouncing(self, time: f64, count: usize) -> Stream {
         let mut out = Stream::new(true);
         for (k, &(at, value)) in self.points.iter().enumerate() {
@@ -232,7 +248,7 @@ mod tests {
 
     fn passed(effect: &str, parameters: &[(&str, f64)]) -> Vec<(f64, f64)> {
         let mut dice = Dice::new(1, 1);
-        flag().through(&quirk("D", effect, parameters), true, &mut dice, 4.0).points
+        flag().through(&quirk("D", effect, parameters), Kind::Flag, &mut dice, 4.0).points
     }
 
     #[test]
@@ -266,13 +282,25 @@ mod tests {
         assert_eq!([level.at(-1.0), level.at(0.25), level.at(2.0)], [0.0, 0.5, 2.0]);
     }
 
+    /// Out, back at once, held, back: what does not stand is never seen, and no code comes between two others.
+    #[test]
+    fn a_filtered_code_is_one_that_has_stood() {
+        let mut code = Stream::new(true);
+        for (at, value) in [(0.0, 0.0), (1.0, 2.0), (1.5, 1.0), (1.52, 0.0), (1.54, 2.0), (2.0, 0.0)] {
+            code.push(at, value);
+        }
+        let mut dice = Dice::new(1, 1);
+        let out = code.through(&quirk("D", "input-filter", &[("time_constant", 0.1)]), Kind::Code, &mut dice, 4.0);
+        assert_eq!(out.points, [(0.0, 0.0), (1.1, 2.0), (2.1, 0.0)]);
+    }
+
     #[test]
     fn a_filter_leaves_37_per_cent_after_its_time() {
         let mut step = Stream::new(true);
         step.push(0.0, 0.0);
         step.push(0.5, 1.0);
         let mut dice = Dice::new(1, 1);
-        let out = step.through(&quirk("D", "input-filter", &[("time_constant", 0.1)]), false, &mut dice, 2.0);
+        let out = step.through(&quirk("D", "input-filter", &[("time_constant", 0.1)]), Kind::Level, &mut dice, 2.0);
         assert!((out.at(0.6) - (1.0 - (-1.0_f64).exp())).abs() < 1e-3, "{}", out.at(0.6));
     }
 }

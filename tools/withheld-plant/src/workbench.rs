@@ -152,6 +152,28 @@ impl Bench {
         self.seed ^ part as u64
     }
 
+    /// The same, told in the training recording what it is told with these effects; nothing where that is the same.
+    pub fn told_as_recorded(&self, quirks: &[Quirk]) -> Option<Bench> {
+        if !self.design.is_connected() || quirks.is_empty() {
+            return None;
+        }
+        let [_, held_out] = self.scripts.clone();
+        let (train, ..) = self.recorded(Part::Train, quirks);
+        Some(Bench {
+            design: self.design.clone(),
+            built: self.built.boxed(),
+            around: self.around.clone(),
+            scripts: [train, held_out],
+            seed: self.seed,
+            tolerance: self.tolerance,
+            hidden: RefCell::default(),
+            rests: Recent::new(RESTS),
+            seen: Recent::new(SEEN),
+            beside: Recent::new(BESIDE),
+            age_known: OnceCell::new(),
+        })
+    }
+
     /// What is seen of it with nothing wrong.
     pub fn healthy(&self) -> Run {
         let mut plant = self.built.plant(&[], self.seed_of(Part::Train)).telling_parts();

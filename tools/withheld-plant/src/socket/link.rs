@@ -6,6 +6,7 @@
 use std::collections::VecDeque;
 
 use crate::chance::Dice;
+use crate::plant::Kind;
 use crate::quirk::Quirk;
 use crate::switch::Delay;
 
@@ -72,6 +73,12 @@ enum Law {
         time: f64,
         y: f64,
     },
+    /// A step counts once it has stood for the time; since when the last one stands, and what counts.
+    Stands {
+        time: f64,
+        since: f64,
+        y: f64,
+    },
     Switched {
         on: f64,
         off: f64,
@@ -86,9 +93,9 @@ enum Law {
 }
 
 impl Link {
-    /// The link that does what `quirk` says to a signal that jumps (`is_edge`), perhaps between two values only
-    /// (`is_flag`). `None` where it does nothing to it.
-    pub fn of(quirk: &Quirk, is_flag: bool, is_edge: bool, seed: u64) -> Option<Link> {
+    /// The link that does what `quirk` says to a signal of this `kind`, which perhaps jumps (`is_edge`). `None` where it does nothing to it.
+    pub fn of(quirk: &Quirk, kind: Kind, is_edge: bool, seed: u64) -> Option<Link> {
+        let is_flag = kind == Kind::Flag;
         let value = |name: &str| quirk.value(name);
         let late = |time, stretch| Law::Late { time, stretch, past: Past::new(is_edge) };
         let phase = value("phase");
@@ -114,7 +121,9 @@ impl Link {
             "intermittent" => {
                 Law::Away { every: value("time"), probability: value("probability"), windows: 0, is_away: false }
             }
-            "input-filter" if is_flag => switched(value("time_constant"), value("time_constant")),
+            "input-filter" if kind.is_edge() => {
+                Law::Stands { time: value("time_constant"), since: f64::NEG_INFINITY, y: 0.0 }
+            }
             "input-filter" => Law::Filtered { time: value("time_constant"), y: 0.0 },
             "on-delay" => switched(value("time"), 0.0),
             "off-delay" => switched(0.0, value("time")),
@@ -185,6 +194,18 @@ impl Link {
                 };
                 let goal = if *is_edge { x_before } else { 0.5 * (x_before + x) };
                 *y = goal + (*y - goal) * (-(now - then) / *time).exp();
+                *y
+            }
+            Law::Stands { time, since, y } => {
+                if before.is_none() {
+                    *y = x;
+                } else if x != x_before {
+                    // What stood until now may have come to count in between.
+                    *y = if now - *since > *time { x_before } else { *y };
+                    *since = now;
+                } else if now - *since >= *time - 1e-9 {
+                    *y = x;
+                }
                 *y
             }
             Law::Switched { on, off, delay } => {

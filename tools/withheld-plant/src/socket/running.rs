@@ -45,8 +45,8 @@ impl Running {
         let inputs = inputs.map(|(name, kind)| Input::new(name, *kind, &plant.quirks, &mut dice)).collect();
         let mut links = |signal| {
             let way = record::way(&plant.quirks, signal, around);
-            let (is_flag, is_edge) = (signal.kind == Kind::Flag, signal.kind.is_edge());
-            way.iter().filter_map(|quirk| Link::of(quirk, is_flag, is_edge, dice.seed())).collect()
+            let (kind, is_edge) = (signal.kind, signal.kind.is_edge());
+            way.iter().filter_map(|quirk| Link::of(quirk, kind, is_edge, dice.seed())).collect()
         };
         let ways = plant.signals.iter().map(&mut links).collect();
         let around = around.clone();
@@ -112,7 +112,7 @@ impl Input {
     fn new(name: &str, kind: Kind, quirks: &[Quirk], dice: &mut Dice) -> Input {
         let (device, port) = name.split_once('.').unwrap_or_default();
         let on_its_way = Quirks::of(quirks, device).at("command-link", port);
-        let links = on_its_way.filter_map(|quirk| Link::of(quirk, kind == Kind::Flag, true, dice.seed()));
+        let links = on_its_way.filter_map(|quirk| Link::of(quirk, kind, true, dice.seed()));
         let (links, arrives_at) = (links.collect(), record::arrives_at(quirks, name));
         Input { name: name.to_owned(), arrives_at, kind, links, held: 0.0, told: None }
     }

@@ -33,11 +33,10 @@ fn points(kind: Kind, is_edge: bool) -> Vec<(f64, f64)> {
 /// How many of all instants differ by more than `allowed`.
 fn differing(quirk: &Quirk, kind: Kind, is_edge: bool, allowed: f64) -> usize {
     let points = points(kind, is_edge);
-    let is_flag = kind == Kind::Flag;
     let mut stream = Stream::new(is_edge);
     points.iter().for_each(|(at, x)| stream.push(*at, *x));
-    let stream = stream.through(quirk, is_flag, &mut Dice::new(8, 0), END + 1.0);
-    let mut link = Link::of(quirk, is_flag, is_edge, 8);
+    let stream = stream.through(quirk, kind, &mut Dice::new(8, 0), END + 1.0);
+    let mut link = Link::of(quirk, kind, is_edge, 8);
     let passed = points.iter().map(|(at, x)| (*at, link.as_mut().map_or(*x, |link| link.pass(*at, *x))));
     passed.filter(|(at, y)| (y - stream.at(*at)).abs() > allowed).count()
 }
@@ -75,4 +74,14 @@ fn every_effect_on_a_link_or_at_a_sensor_is_the_same_while_it_happens() {
         }
     }
     assert!(checked > 80, "{checked} effects only: the catalogue has moved");
+}
+
+#[test]
+fn the_filter_of_a_flag_or_a_code_is_the_same_while_it_happens() {
+    for kind in [Kind::Flag, Kind::Code] {
+        for time in [0.03, 0.2, 0.7] {
+            let filter = crate::bench::quirk("D", "input-filter", &[("time_constant", time)]);
+            assert_eq!(differing(&filter, kind, true, 1e-9), 0, "{kind:?} {time}");
+        }
+    }
 }
