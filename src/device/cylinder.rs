@@ -207,7 +207,7 @@ impl Cylinder {
                 let Motion { position, velocity } = self.rod();
                 let ahead = places.map(|place| velocity.signum() * (place - position) + 2.0 * SAME_VALUE);
                 let next = ahead.into_iter().filter(|ahead| *ahead >= 0.0).fold(f64::INFINITY, f64::min);
-                // Without any of its own a rod is as long under way as its piston.
+                // A rod that stands in its gap passes nothing.
                 let passes = if velocity == 0.0 { f64::INFINITY } else { (next - 4.0 * SAME_VALUE) / velocity.abs() };
                 passes.min(self.stroke.steady(self.valve))
             }

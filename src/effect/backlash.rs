@@ -8,7 +8,7 @@
 
 use super::play::Play;
 use super::table::{BASE, TRAVEL, parameter};
-use crate::device::law::{SAME_INSTANT_S, SAME_VALUE};
+use crate::device::law::is_there;
 use crate::device::path::{Moment, Motion, STRETCH_S, Stage};
 use crate::effect::{Build, EffectDescriptor};
 use crate::plant::EffectPlace;
@@ -62,8 +62,7 @@ impl Stage for Backlash {
         }
         let position = self.play.pass(motion.position);
         let left = 0.5 * self.gap - (motion.position - position) * motion.velocity.signum();
-        // An instant so near that time would not move is now.
-        let is_dragged = left <= SAME_VALUE.max(SAME_INSTANT_S * motion.velocity.abs());
+        let is_dragged = is_there(left, motion.velocity);
         self.met = (!is_dragged && motion.velocity != 0.0).then(|| moment.now + left / motion.velocity.abs());
         Motion { position, velocity: if is_dragged { motion.velocity } else { 0.0 } }
     }

@@ -5,7 +5,7 @@
 //! transient left out.
 
 use super::table::{BASE, LENGTH, ONE, parameter};
-use crate::device::law::{SAME_INSTANT_S, SAME_VALUE};
+use crate::device::law::is_there;
 use crate::device::path::{Moment, Motion, Stage};
 use crate::effect::{Build, EffectDescriptor, Fit};
 use crate::plant::EffectPlace;
@@ -51,8 +51,7 @@ impl Stage for EndCushioning {
     fn reference(&mut self, reference: f64, motion: Motion, moment: Moment) -> f64 {
         let left = if reference < 0.0 { motion.position } else { self.stroke - motion.position };
         let until = left - self.length;
-        // An instant so near that time would not move is now.
-        if until <= SAME_VALUE.max(SAME_INSTANT_S * reference.abs()) {
+        if is_there(until, reference) {
             self.entry = None;
             return self.ratio * reference;
         }

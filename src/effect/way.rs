@@ -1,6 +1,6 @@
 //! A boolean sensor that follows only after a way: what it looks along must move on before it sees a change.
 
-use crate::device::law::SAME_VALUE;
+use crate::device::law::is_there;
 use crate::device::path::STRETCH_S;
 
 /// A switch with a way of its own.
@@ -41,14 +41,11 @@ impl Way {
         }
         let from = *self.from.get_or_insert(self.travel);
         let left = self.length - (self.travel - from).abs();
-        if input == self.late && left > SAME_VALUE {
-            // At the speed of the time since it was asked before.
-            let due = before.and_then(|(then, travel)| {
-                let gone = (self.travel - travel).abs();
-                (now > then && gone > 0.0).then(|| now + left * (now - then) / gone)
-            });
-            // Its speed may change until then.
-            self.due = Some((now + STRETCH_S).min(due.unwrap_or(f64::INFINITY)));
+        // That of the time since it was asked before.
+        let speed = before.filter(|(then, _)| now > *then).map_or(0.0, |(then, at)| (self.travel - at) / (now - then));
+        if input == self.late && !is_there(left, speed) {
+            // Its speed may change until then, and is to be asked for again.
+            self.due = Some(now + STRETCH_S.min(left / speed.abs()));
             return exit;
         }
         self.exit = Some(input);

@@ -136,6 +136,17 @@ mod tests {
     }
 
     #[test]
+    fn it_knows_when_its_speed_passes_another() {
+        // From rest to 0.5 m/s it has 0.2 after T·ln(0.5/0.3), and 0.1 less 0.01 after T·ln(0.5/0.41); never 0.6.
+        let out = at(0.0, 0.5);
+        assert!((out.passes(0.2, 0.0) - 0.1 * (0.5_f64 / 0.3).ln()).abs() < 1e-12);
+        assert!((out.passes(0.1, 0.01) - 0.1 * (0.5_f64 / 0.41).ln()).abs() < 1e-12);
+        assert!(out.passes(0.6, 0.01).is_infinite() && at(0.5, 0.5).passes(0.2, 0.01).is_infinite());
+        // Turned round, it passes 0.2 on its way to 0.
+        assert!((at(0.5, -0.5).passes(0.2, 0.0) - 0.1 * (1.0_f64 / 0.7).ln()).abs() < 1e-12);
+    }
+
+    #[test]
     fn wherever_it_goes_it_is_there_when_it_says_so_and_not_before() {
         for velocity in [-0.7, -3e-6, 0.0, 3e-6, 0.3, 0.6, 2.0] {
             for asked in [-0.4, -1e-3, 0.0, 0.5] {

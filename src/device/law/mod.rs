@@ -26,6 +26,11 @@ pub const SAME_INSTANT_S: f64 = 0.5e-9;
 /// a limit: far below what any report resolves, far above what rounding adds up to.
 pub const SAME_VALUE: f64 = 1e-9;
 
+/// Whether what moves with `speed` is where it is to come, with `left` to go: so near that it is the same place, or that time would not move.
+pub fn is_there(left: f64, speed: f64) -> bool {
+    left <= SAME_VALUE.max(SAME_INSTANT_S * speed.abs())
+}
+
 /// The speed above which a drive counts as moving, m/s or rad/s (the table of the device kinds: 1 mm/s, 1 mrad/s).
 pub const STANDSTILL: f64 = 1e-3;
 

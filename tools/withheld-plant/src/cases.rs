@@ -154,3 +154,29 @@ fn as_recorded(bench: &Bench, quirks: &[Quirk], magnitude: Magnitude, distance: 
     let is_enough = !shows || distance >= least && bench.show_beside(quirks, least, &healthy);
     is_enough.then_some(distance)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::quirk;
+    use crate::site::Site;
+
+    /// Whatever a healthy line's commands show of it. A rig's automation answers to nothing.
+    #[test]
+    fn what_does_not_show_under_the_commands_that_are_recorded_is_not_clear() {
+        let cushion = |ratio: f64| {
+            let cushion = quirk("Pusher2", "end-cushioning", &[("length", 0.2), ("ratio", ratio)]);
+            [Quirk { place: "actuator".to_owned(), ..cushion }]
+        };
+        let (slow, hardly) = (cushion(0.2), cushion(1.0 - 1e-9));
+        let bench = |site: Site| Bench::new(site.design(&["Pusher"], 3), 3, Conditions::default());
+        let (line, rig) = (bench(Site::Line), bench(Site::Rig));
+        assert!(line.told_as_recorded(&slow).is_some() && line.told_as_recorded(&[]).is_none());
+        assert!(rig.told_as_recorded(&slow).is_none());
+        let shown = as_recorded(&line, &slow, Magnitude::Clear, 0.0).expect("it is late at both ends");
+        assert!(shown >= Magnitude::Clear.range().0, "{shown}");
+        assert_eq!(as_recorded(&line, &hardly, Magnitude::Clear, 100.0), None);
+        assert_eq!(as_recorded(&line, &hardly, Magnitude::BelowNoise, 100.0), Some(0.0));
+        assert_eq!(as_recorded(&rig, &hardly, Magnitude::Clear, 100.0), Some(100.0));
+    }
+}

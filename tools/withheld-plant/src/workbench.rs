@@ -132,6 +132,17 @@ impl Bench {
         let told = if design.is_connected() { &*built } else { design.machine() };
         let scripts =
             scripts.map(|part| record::heard(&told.program(part, &[], seed ^ part as u64, &mut dice), &known));
+        Bench::told(design, (built, tolerance), around, scripts, seed)
+    }
+
+    /// What was `built` to a design within its tolerance, told this in the one and the other recording.
+    fn told(
+        design: Design,
+        (built, tolerance): (Box<dyn Machine>, f64),
+        around: Surroundings,
+        scripts: [Vec<Command>; 2],
+        seed: u64,
+    ) -> Bench {
         Bench {
             design,
             built,
@@ -159,19 +170,8 @@ impl Bench {
         }
         let [_, held_out] = self.scripts.clone();
         let (train, ..) = self.recorded(Part::Train, quirks);
-        Some(Bench {
-            design: self.design.clone(),
-            built: self.built.boxed(),
-            around: self.around.clone(),
-            scripts: [train, held_out],
-            seed: self.seed,
-            tolerance: self.tolerance,
-            hidden: RefCell::default(),
-            rests: Recent::new(RESTS),
-            seen: Recent::new(SEEN),
-            beside: Recent::new(BESIDE),
-            age_known: OnceCell::new(),
-        })
+        let built = (self.built.boxed(), self.tolerance);
+        Some(Bench::told(self.design.clone(), built, self.around.clone(), [train, held_out], self.seed))
     }
 
     /// What is seen of it with nothing wrong.
