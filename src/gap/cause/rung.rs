@@ -5,7 +5,8 @@
 //! (d·r)²/|d|², how far it moves them being a matter of its parameter. Starts that move them next to nothing, or further than the
 //! whole gap, are not looked at. Only what promises something is fitted, and only what then explains a part of what the best
 //! explains is fitted closely. Where the first part of the recordings shows enough of the gap, all of that is done on it alone, and what is
-//! found there is fitted to the whole.
+//! found there is fitted to the whole. Where a nominal parameter stands at the end of its tolerance, it has made up for an effect and holds it
+//! back: then all that promises something has the nominal parameters follow it.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -61,11 +62,12 @@ pub fn rung(
             glance
         })
         .collect();
-    let most = glances.iter().map(|glance| glance.promise).fold(0.0, f64::max);
-    let is_worth_a_fit = |glance: &Glance| {
+    let promised = glances.iter().map(|glance| glance.promise).fold(0.0, f64::max);
+    let is_beside_the_best = |glance: &Glance| {
         let share = BESIDE_THE_BEST[usize::from(glance.candidate.free.len() > 1)];
-        glance.is_promising && glance.promise >= share * most
+        glance.promise >= share * promised
     };
+    let is_worth_a_fit = |glance: &Glance| glance.is_promising && is_beside_the_best(glance);
     let fitted = glances.into_par_iter().with_max_len(1).filter_map(|glance| match is_worth_a_fit(&glance) {
         true => {
             let fitted = looks.fit(glance)?;
@@ -83,18 +85,32 @@ pub fn rung(
     let most = fitted.iter().map(|glance| glance.gain).fold(0.0, f64::max);
     // Where slopes lead nowhere, what a few steps downhill gain says little.
     let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
+    let nuisances = below.at.iter().zip(&below.ranges).skip(below.parameters());
+    let is_strained = is_smooth && nuisances.into_iter().any(|(at, range)| *at <= range.least || *at >= range.greatest);
     let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| {
         let is_near = is_near(&glance);
         let glance = match is_part {
             true => whole.again(if is_near { looks.closely(glance)? } else { glance }),
             false => glance,
         };
-        match is_near {
+        let follows = is_strained && !glance.candidate.free.is_empty() && is_beside_the_best(&glance);
+        let trial = match is_near {
             true => whole.fit_closely(glance, is_part),
             false if glance.candidate.free.is_empty() => whole.trial_at(&glance, &[]),
             // What promised little gets no nominal parameters of its own.
             false => bench.trial(&glance.set, whole.all(&glance, &glance.at)),
-        }
+        }?;
+        let led = follows.then(|| downhill(looks.bench, &trial)).flatten();
+        let led = led.and_then(|at| bench.trial(&trial.set, at)).filter(|led| led.cost < trial.cost);
+        Some((led.unwrap_or(trial), follows))
+    });
+    let trials: Vec<(Trial, bool)> = trials.collect();
+    let least = trials.iter().map(|(trial, _)| trial.cost).fold(below.cost, f64::min);
+    let trials = trials.into_par_iter().with_max_len(1).map(|(trial, follows)| {
+        let is_near = below.cost - trial.cost > NEAR_THE_BEST * (below.cost - least);
+        let fit = || bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len()));
+        let all = (follows && is_near).then(fit).flatten();
+        all.filter(|all| all.cost < trial.cost).unwrap_or(trial)
     });
     // Weighed by what the effects so far leave, ten times as much is hardly anything else than 60/2π times as much.
     let by_noise = bench.subject.weighed_by_noise();
@@ -102,6 +118,15 @@ pub fn rung(
     distinct(trials.collect(), &|trial| {
         by_noise.trial(&trial.set, trial.at.clone()).map_or(f64::INFINITY, |trial| trial.cost)
     })
+}
+
+/// Where a few steps downhill lead a trial with all that is free.
+fn downhill(bench: &Bench<'_>, trial: &Trial) -> Option<Vec<f64>> {
+    /// As often as so many differences are taken.
+    const STEPS: u32 = 6;
+    let budget = STEPS * (trial.at.len() as u32 + 1);
+    let residuals = |at: &[f64]| bench.residuals(&trial.set, at);
+    Some(least_squares(&residuals, &trial.at, &trial.ranges, budget)?.at)
 }
 
 /// Effects of one parameter that move levels each in a way of its own; what others do goes with one of them, or with the motion itself.
@@ -311,6 +336,7 @@ mod tests {
     use super::*;
     use crate::gap::THRESHOLD;
     use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
+    use crate::gap::cause::bare::Bare;
     use crate::gap::cause::library::candidates;
 
     /// What a load lets rub moves an axis whose noise hides it in a way that no other witness does.
@@ -343,5 +369,25 @@ mod tests {
         let left = distinct(trials, &by_noise);
         assert_eq!(left.iter().map(|trial| trial.cost).collect::<Vec<_>>(), [50.0, 101.0]);
         assert_eq!(left[1].set[0].fixed, other.fixed);
+    }
+
+    /// An axis that rubs by its speed more than it declares, and whose declared friction and force limit stand at the ends of their tolerances for that:
+    /// with these there, a little more of it gains nothing.
+    #[test]
+    fn what_made_up_for_an_effect_follows_it() {
+        let (mut subject, nominal, _) = rubbing_axis();
+        let rubs = candidates(&subject, &nominal, &subject.score(&nominal), &|id| id == "viscous-friction");
+        let stop = || false;
+        for coefficient in [5.0, 10.0, 30.0] {
+            let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&rubs[..1], &[coefficient]);
+            report_as(&mut subject, &recorded.expect("a prediction"));
+            let bare = Bare::new(&subject, &nominal);
+            let bench = Bench::new(&subject, bare.nuisances.clone(), &stop);
+            let below = bench.trial(&[], bare.at.clone()).expect("a trial");
+            let rivals = rung(&bench, &below, below.cost, &|id| id == "viscous-friction", &|_| true, &|_| {});
+            let [found] = rivals.as_slice() else { panic!("{}", rivals.len()) };
+            let is_found = found.cost < 0.05 * below.cost && (found.at[0] / coefficient - 1.0).abs() < 0.1;
+            assert!(is_found, "{coefficient}: {:?} {} of {}", found.at, found.cost, below.cost);
+        }
     }
 }
