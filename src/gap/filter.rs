@@ -30,8 +30,8 @@ const NEAR_THE_KNOWN: [f64; 6] = [0.55, 0.75, 0.9, 1.1, 1.33, 1.8];
 const SHARES: [[f64; 2]; 3] = [[0.85, 1.18], [0.95, 1.05], [0.98, 1.02]];
 /// How many such steps it is gone on at most.
 const FURTHEST: usize = 4;
-/// By how much no device may be further off under such a filter, in deviance, and by which share of what all but the one gain that gains the most
-/// more: it is all devices' or none's. (A cylinder whose rod was switched on 6 ms late had a belt's flags, which knew better, come late by 28 of the 567 that it
+/// By how much no device may be further off under such a filter, in deviance, and by which share more of what is gained by all but the one that gains the
+/// most: it is all devices' or none's. (A cylinder whose rod was switched on 6 ms late had a belt's flags, which knew better, come late by 28 of the 567 that it
 /// gained.)
 const NOT_FURTHER: f64 = 1.0;
 const SHARE_NOT_FURTHER: f64 = 0.05;

@@ -20,7 +20,7 @@ use super::glance::{Glance, Looks};
 use super::ladder::{NEAR_THE_BEST, Progress, Standing, Tell, anew};
 use super::library;
 use super::tangent::Tangent;
-use crate::gap::fit::least_squares;
+use crate::gap::fit::{Effort, least_squares};
 use crate::gap::{Prediction, Score, Subject};
 use crate::plant::EffectPlace;
 
@@ -100,33 +100,36 @@ pub fn rung(
             // What promised little gets no nominal parameters of its own.
             false => bench.trial(&glance.set, whole.all(&glance, &glance.at)),
         }?;
-        let led = follows.then(|| downhill(looks.bench, &trial)).flatten();
-        let led = led.and_then(|at| bench.trial(&trial.set, at)).filter(|led| led.cost < trial.cost);
-        Some((led.unwrap_or(trial), follows))
+        Some((trial, follows))
     });
-    let trials: Vec<(Trial, bool)> = trials.collect();
-    let least = trials.iter().map(|(trial, _)| trial.cost).fold(below.cost, f64::min);
-    let trials = trials.into_par_iter().with_max_len(1).map(|(trial, follows)| {
-        let is_near = below.cost - trial.cost > NEAR_THE_BEST * (below.cost - least);
-        let fit = || bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len()));
-        let all = (follows && is_near).then(fit).flatten();
-        all.filter(|all| all.cost < trial.cost).unwrap_or(trial)
-    });
+    let trials = followed(bench, looks.bench, below, trials.collect());
     // Weighed by what the effects so far leave, ten times as much is hardly anything else than 60/2π times as much.
     let by_noise = bench.subject.weighed_by_noise();
     let by_noise = bench.with(&by_noise);
-    distinct(trials.collect(), &|trial| {
-        by_noise.trial(&trial.set, trial.at.clone()).map_or(f64::INFINITY, |trial| trial.cost)
-    })
+    distinct(trials, &|trial| by_noise.trial(&trial.set, trial.at.clone()).map_or(f64::INFINITY, |trial| trial.cost))
 }
 
-/// Where a few steps downhill lead a trial with all that is free.
-fn downhill(bench: &Bench<'_>, trial: &Trial) -> Option<Vec<f64>> {
+/// The same trials with all that is free fitted in those that are said to follow: by a few steps on a `part` of the recordings, and to the end where that
+/// comes near the best.
+fn followed(bench: &Bench<'_>, part: &Bench<'_>, below: &Trial, trials: Vec<(Trial, bool)>) -> Vec<Trial> {
     /// As often as so many differences are taken.
     const STEPS: u32 = 6;
-    let budget = STEPS * (trial.at.len() as u32 + 1);
-    let residuals = |at: &[f64]| bench.residuals(&trial.set, at);
-    Some(least_squares(&residuals, &trial.at, &trial.ranges, budget)?.at)
+    let fit = |bench: &Bench<'_>, trial: &Trial, effort| bench.fit(&trial.set, std::slice::from_ref(&trial.at), effort);
+    let cheaper = |trial: Trial, other: Option<Trial>| other.filter(|other| other.cost < trial.cost).unwrap_or(trial);
+    let begun = trials.into_par_iter().with_max_len(1).map(|(trial, follows)| {
+        let few = Effort { starts: 1, budget: STEPS * (trial.at.len() as u32 + 1) };
+        let led = follows.then(|| fit(part, &trial, few)).flatten();
+        let led = led.and_then(|led| bench.trial(&led.set, led.at));
+        (cheaper(trial, led), follows)
+    });
+    let begun: Vec<(Trial, bool)> = begun.collect();
+    let least = begun.iter().map(|(trial, _)| trial.cost).fold(below.cost, f64::min);
+    let ended = begun.into_par_iter().with_max_len(1).map(|(trial, follows)| {
+        let is_near = below.cost - trial.cost > NEAR_THE_BEST * (below.cost - least);
+        let all = (follows && is_near).then(|| fit(bench, &trial, anew(trial.at.len()))).flatten();
+        cheaper(trial, all)
+    });
+    ended.collect()
 }
 
 /// Effects of one parameter that move levels each in a way of its own; what others do goes with one of them, or with the motion itself.
