@@ -16,6 +16,10 @@ pub const ORDERLY_PUSHER: &str = "tests/data/pusher-in-order.cps.jsonl.zst";
 pub const LATE_PUSHER: &str = "tests/data/pusher-whose-clock-is-slow.cps.jsonl.zst";
 /// A robot whose axes are not square, beside a motor that is as it should be.
 pub const CROOKED_ROBOT: &str = "tests/data/robot-that-is-not-square.cps.jsonl.zst";
+/// A belt with nothing wrong whose parts are put 3 mm before a beam, which it should be at; beside it a motor.
+pub const PUT_AT_A_BEAM: &str = "tests/data/belt-whose-parts-are-put-at-a-beam.cps.jsonl.zst";
+/// A gripper that is switched on 4.1 ms late, and reported every 50 ms, beside a robot that is as it should be.
+pub const LATE_GRIPPER: &str = "tests/data/gripper-that-is-switched-on-late.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
 

@@ -53,6 +53,8 @@ pub(super) struct Reading {
     /// it may.
     spans: Vec<[f64; 2]>,
     cycle: f64,
+    /// Of a flag what it should have been in all of them, where that is the same.
+    flag: Option<f64>,
     /// How far from 0 samples that tell were predicted where they were drawn, and where they were not.
     sizes: [Vec<f64>; 2],
     /// How far off what was drawn is, in floors squared.
@@ -252,6 +254,7 @@ impl Reading {
         self.telling += up.len();
         self.drawn += stretches.iter().map(|(from, to)| to - from + 1).sum::<usize>();
         self.misfit += 24.0 * stretches.len() as f64;
+        self.flag = Some(1.0);
         self.spans.extend(match window {
             Some(window) => vec![[window; 2]; stretches.len()],
             None => inner.iter().map(|(from, to)| [(to - from + 1) as f64 * track.grid.cycle; 2]).collect(),
@@ -327,7 +330,7 @@ impl Reading {
         for (run, stretches) in subject.runs.iter_mut().zip(&self.stretches) {
             let Some(track) = &mut run.tracks[signal] else { continue };
             if track.values.is_empty() {
-                take_out_of_flag(track, stretches);
+                take_out_of_flag(track, stretches, self.flag);
             }
             track.blind.extend(stretches.iter().copied());
             track.blind.sort_unstable();
@@ -483,13 +486,14 @@ fn states(initial: f64, edges: impl Iterator<Item = (usize, f64)>, count: usize)
     states
 }
 
-/// Makes a flag in each stretch what it becomes behind it: an edge that was late is where it belongs, and one that was not there is none.
-fn take_out_of_flag(track: &mut Track, stretches: &[(usize, usize)]) {
+/// Makes a flag in each stretch what it `should` have been, or else what it becomes behind it: an edge that was late is where it belongs, and one that was
+/// not there is none.
+fn take_out_of_flag(track: &mut Track, stretches: &[(usize, usize)], should: Option<f64>) {
     let count = track.grid.instants.len();
     let mut states = states(track.initial, track.edges.iter().map(|edge| (edge.index, edge.to)), count);
     for (from, to) in stretches {
         let behind = states.get(to + 1).or(states.get(*to)).copied().unwrap_or(0.0);
-        states[*from..(to + 1).min(count)].fill(behind);
+        states[*from..(to + 1).min(count)].fill(should.unwrap_or(behind));
     }
     let mut before = track.initial;
     track.edges.clear();
@@ -672,13 +676,21 @@ mod tests {
         assert!((of_beam.window().0 - 0.1).abs() < 1e-3 && of_beam.drawn <= by_windows.drawn);
     }
 
-    /// Of a flag that goes up at 10 and down at 50, and is away from 20 to 29, nothing but its two edges is left.
+    /// Of a flag that goes up at 10 and down at 50, and up at 70 until 80, and is away from 20 to 29, from 45 on, and from 70 to 79, nothing but its own four
+    /// edges is left; one whose fall came late falls where it is taken out.
     #[test]
     fn a_flag_is_mended_where_it_was_away() {
-        let mut flag = Track::of_values(Vec::new());
-        flag.grid = Arc::new(Grid::of_steps(0.01, 0.99));
-        flag.edges = [(10, 1.0), (20, 0.0), (30, 1.0), (50, 0.0)].map(|(index, to)| Edge { index, to }).to_vec();
-        take_out_of_flag(&mut flag, &[(20, 29)]);
-        assert_eq!(flag.edges, [(10, 1.0), (50, 0.0)].map(|(index, to)| Edge { index, to }));
+        let flag = |edges: &[(usize, f64)]| {
+            let mut flag = Track::of_values(Vec::new());
+            flag.grid = Arc::new(Grid::of_steps(0.01, 0.99));
+            flag.edges = edges.iter().map(|(index, to)| Edge { index: *index, to: *to }).collect();
+            flag
+        };
+        let mut away = flag(&[(10, 1.0), (20, 0.0), (30, 1.0), (45, 0.0)]);
+        take_out_of_flag(&mut away, &[(20, 29), (45, 49), (70, 79)], Some(1.0));
+        assert_eq!(away.edges, flag(&[(10, 1.0), (50, 0.0), (70, 1.0), (80, 0.0)]).edges);
+        let mut late = flag(&[(10, 1.0), (52, 0.0)]);
+        take_out_of_flag(&mut late, &[(50, 51)], None);
+        assert_eq!(late.edges, flag(&[(10, 1.0), (50, 0.0)]).edges);
     }
 }

@@ -50,11 +50,15 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// Whether reports seem to be lost beside what its effects explain: what stands still, as a joint does that holds, is reported the same again and
-    /// again as well.
-    fn may_stand_still(&self) -> bool {
-        let is_lost = |chance: &Arc<Chance>| chance.candidate.effect.id == "lost-messages";
-        self.chance.as_ref().is_some_and(is_lost) && !self.ladder.best.set.is_empty()
+    /// With how many effects that draw nothing it would be explained as plainly, where it may be: what stands still, as a joint does that holds, is reported the
+    /// same again and again as if reports were lost; and of flags that are late, each by a cycle or not, commands seem to come late by times of their own.
+    fn may_draw_nothing(&self, subject: &Subject) -> Option<usize> {
+        let own = self.ladder.best.set.len();
+        match self.chance.as_ref()?.candidate.effect.id {
+            "lost-messages" if own > 0 => Some(own),
+            "sampling-jitter" if !subject.has_levels() => Some(own + 1),
+            _ => None,
+        }
     }
 
     /// How old its reports are, s, where an effect beside others says so that delays all of them by so little: no other device says how old the machine's
@@ -107,12 +111,9 @@ pub(super) fn find(
         (aged.ladder.best.set.len() < finding.ladder.best.set.len()).then_some(aged)
     };
     let finding = aged().unwrap_or(finding);
-    if !finding.may_stand_still() {
-        return Some(finding);
-    }
-    let alone = conclude(place, (subject, bare), None, study, options).filter(explains_all);
-    let is_plainer = |alone: &Finding| alone.ladder.best.set.len() <= finding.ladder.best.set.len();
-    Some(alone.filter(is_plainer).unwrap_or(finding))
+    let Some(most) = finding.may_draw_nothing(subject) else { return Some(finding) };
+    let plain = conclude(place, (subject, bare), None, study, options).filter(explains_all);
+    Some(plain.filter(|plain| plain.ladder.best.set.len() <= most).unwrap_or(finding))
 }
 
 /// The same once what was drawn is read beside the effects that were found: where it had been read off the recording by itself, and where they do not
@@ -301,7 +302,7 @@ mod tests {
     use crate::effect::EFFECTS;
     use crate::gap::cause::Free;
     use crate::gap::fit::Range;
-    use crate::gap::recorded_tests::{LATE_PUSHER, RUBBING_AXIS, study};
+    use crate::gap::recorded_tests::{LATE_GRIPPER, LATE_PUSHER, RUBBING_AXIS, study};
 
     fn candidate(id: &str) -> Candidate {
         let effect = EFFECTS.iter().find(|effect| effect.id == id).expect("an effect");
@@ -329,6 +330,23 @@ mod tests {
         let named: Vec<&str> = found.ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
         assert!(found.conclusion == Conclusion::Explained && found.chance.is_none(), "{named:?}");
         assert_eq!(named, ["clock-drift"]);
+    }
+
+    /// Of a gripper that is switched on late few reports are late, each by a whole cycle, as if some commands came late by times of their own.
+    #[test]
+    fn what_is_late_by_a_cycle_or_not_has_one_delay() {
+        let study = study(LATE_GRIPPER);
+        let place = study.subjects.iter().position(|subject| subject.name == "Gripper").expect("it grips");
+        let drawn = chance::find(place, &study, &|id| id == "sampling-jitter", &|| false);
+        assert!(drawn.is_some_and(|drawn| drawn.candidate.effect.id == "sampling-jitter"));
+        let is_asked = |id: &str| ["sampling-jitter", "switch-on-delay"].contains(&id);
+        let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+        let found = find(place, &study.subjects[place], &study.bare[place], &study, &options).expect("a finding");
+        let named: Vec<&str> = found.ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
+        assert!(found.conclusion == Conclusion::Explained && found.chance.is_none(), "{named:?}");
+        assert_eq!(named, ["switch-on-delay"]);
+        let late = found.ladder.best.at[0];
+        assert!((late - 4.1e-3).abs() < 1e-3, "{late}");
     }
 
     /// A delay of all reports beside an effect may be their age where no device says how old they are, and is no longer than they may be.
