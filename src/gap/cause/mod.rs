@@ -14,6 +14,7 @@ mod intervals;
 mod ladder;
 mod latest;
 mod library;
+mod masked;
 mod nuisance;
 mod refresh;
 mod remainder;

@@ -19,6 +19,7 @@ use super::candidate::Candidate;
 use super::glance::{Glance, Looks};
 use super::ladder::{NEAR_THE_BEST, Progress, Standing, Tell, anew};
 use super::library;
+use super::masked::masked;
 use super::tangent::Tangent;
 use crate::gap::fit::{Effort, least_squares};
 use crate::gap::{Prediction, Score, Subject};
@@ -41,6 +42,7 @@ pub fn rung(
     let score = bench.subject.score(&prediction);
     let mut library = candidates_beside(bench, below, (&prediction, &score), is_asked);
     library.retain(is_admitted);
+    let hidden = masked(bench, below, excess, &library);
     let blurred = blur::blurred(bench.subject, &score);
     let is_smooth = !bench.is_rugged() && is_in_levels(&score, excess);
     let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
@@ -102,7 +104,7 @@ pub fn rung(
         }?;
         Some((trial, follows))
     });
-    let trials = followed(bench, looks.bench, below, trials.collect());
+    let trials: Vec<Trial> = followed(bench, looks.bench, below, trials.collect()).into_iter().chain(hidden).collect();
     // Weighed by what the effects so far leave, ten times as much is hardly anything else than 60/2π times as much.
     let by_noise = bench.subject.weighed_by_noise();
     let by_noise = bench.with(&by_noise);
