@@ -100,7 +100,7 @@ impl Chance {
             match self.drawn {
                 Drawn::By(law) | Drawn::Beside(law) => {
                     if let Some(reading) = Reading::of(&other, &prediction, *signal, law, true) {
-                        reading.take_out(&mut other, *signal);
+                        reading.take_out(&mut other, *signal, law);
                     }
                 }
                 Drawn::In(steps) => {
@@ -288,7 +288,7 @@ impl Readings {
 
     /// Takes it out of the recordings.
     fn take_out(&self, subject: &mut Subject) {
-        self.each.iter().for_each(|(signal, reading)| reading.take_out(subject, *signal));
+        self.each.iter().for_each(|(signal, reading)| reading.take_out(subject, *signal, self.law));
     }
 
     /// The same where only levels that move on and on have shown it: what is lost of one signal is of all that are reported with it.
@@ -299,7 +299,7 @@ impl Readings {
                 let all = 0..subject.signals.len();
                 self.each
                     .iter()
-                    .for_each(|(_, reading)| all.clone().for_each(|other| reading.take_out(subject, other)));
+                    .for_each(|(_, reading)| all.clone().for_each(|other| reading.take_out(subject, other, self.law)));
             }
         }
     }

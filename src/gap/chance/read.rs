@@ -53,8 +53,6 @@ pub(super) struct Reading {
     /// it may.
     spans: Vec<[f64; 2]>,
     cycle: f64,
-    /// Of a flag what it should have been in all of them, where that is the same.
-    flag: Option<f64>,
     /// How far from 0 samples that tell were predicted where they were drawn, and where they were not.
     sizes: [Vec<f64>; 2],
     /// How far off what was drawn is, in floors squared.
@@ -254,7 +252,6 @@ impl Reading {
         self.telling += up.len();
         self.drawn += stretches.iter().map(|(from, to)| to - from + 1).sum::<usize>();
         self.misfit += 24.0 * stretches.len() as f64;
-        self.flag = Some(1.0);
         self.spans.extend(match window {
             Some(window) => vec![[window; 2]; stretches.len()],
             None => inner.iter().map(|(from, to)| [(to - from + 1) as f64 * track.grid.cycle; 2]).collect(),
@@ -325,12 +322,14 @@ impl Reading {
         Some(())
     }
 
-    /// Takes what was drawn out of the recording of a signal.
-    pub fn take_out(&self, subject: &mut Subject, signal: usize) {
+    /// Takes what the law drew out of the recording of a signal.
+    pub fn take_out(&self, subject: &mut Subject, signal: usize, law: Law) {
+        // A flag is away only where it should be up.
+        let should = (law == Law::Away).then_some(1.0);
         for (run, stretches) in subject.runs.iter_mut().zip(&self.stretches) {
             let Some(track) = &mut run.tracks[signal] else { continue };
             if track.values.is_empty() {
-                take_out_of_flag(track, stretches, self.flag);
+                take_out_of_flag(track, stretches, should);
             }
             track.blind.extend(stretches.iter().copied());
             track.blind.sort_unstable();
