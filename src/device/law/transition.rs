@@ -17,6 +17,9 @@ use super::taylor::ORDER;
 /// How many spans are known at once: a command between two looks makes two, and a stage may have a loop of its own.
 const KNOWN: usize = 4;
 
+/// The share of a sum that its last term may have: less than rounding makes of it.
+const NEGLIGIBLE: f64 = 1e-17;
+
 /// A linear system that a drive moves, and a span of time: what Φ depends on. Its state has `STATES` components.
 pub trait System<const STATES: usize>: Copy + PartialEq {
     /// s, no longer than a series of [`ORDER`] is good for.
@@ -125,8 +128,8 @@ impl<const STATES: usize> Transition<STATES> {
     fn new(system: &impl System<STATES>) -> Self {
         let (span, matrix) = (system.span(), system.matrix());
         // Of y'(s) = exp(A·s)·y'(0), no component is larger than that of exp(|A|·s)·|y'(0)|, each by its magnitude.
-        let bound = integral(&matrix.abs(), span);
-        Transition { integral: integral(&matrix, span), reach: bound.tr_mul(&system.demand()) }
+        let (bound, terms) = bound(&matrix.abs(), span);
+        Transition { integral: integral(&matrix, span, terms), reach: bound.tr_mul(&system.demand()) }
     }
 
     /// Whether a demand that may move by `margin` either way stays within that all along, where y'(0) is `slopes`.
@@ -144,10 +147,32 @@ impl<const STATES: usize> Transition<STATES> {
     }
 }
 
+/// Φ(t) of a matrix without negative entries, and how many terms of its series are needed. Of a matrix of these magnitudes no term is larger.
+fn bound<const STATES: usize>(
+    magnitudes: &SMatrix<f64, STATES, STATES>,
+    span: f64,
+) -> (SMatrix<f64, STATES, STATES>, usize) {
+    let mut term = SMatrix::identity() * span;
+    let mut sum = term;
+    for k in 2..ORDER {
+        term = magnitudes * term * (span / k as f64);
+        sum += term;
+        // What reaches a component by way of all others does so within as many terms.
+        if k > STATES && term.iter().zip(&sum).all(|(term, sum)| *term <= NEGLIGIBLE * sum) {
+            return (sum, k);
+        }
+    }
+    (sum, ORDER)
+}
+
 /// Φ(t) by Horner's rule from the smallest term on: t·(1 + A·t/2·(1 + A·t/3·(…))).
-fn integral<const STATES: usize>(matrix: &SMatrix<f64, STATES, STATES>, span: f64) -> SMatrix<f64, STATES, STATES> {
+fn integral<const STATES: usize>(
+    matrix: &SMatrix<f64, STATES, STATES>,
+    span: f64,
+    terms: usize,
+) -> SMatrix<f64, STATES, STATES> {
     let one = SMatrix::identity();
-    (2..=ORDER).rev().fold(one, |sum, k| one + matrix * sum * (span / k as f64)) * span
+    (2..=terms).rev().fold(one, |sum, k| one + matrix * sum * (span / k as f64)) * span
 }
 
 #[cfg(test)]
@@ -210,6 +235,18 @@ mod tests {
         }
         // A bound that is far off would never let anything pass.
         assert!(tightest > 0.3, "{tightest}");
+    }
+
+    #[test]
+    fn no_more_terms_are_summed_than_count() {
+        let terms = [1e-5, 0.002, 0.02].map(|span| {
+            let matrix = Linear { span, ..LOOP }.matrix();
+            let (bound, terms) = bound(&matrix.abs(), span);
+            let missing = integral(&matrix, span, ORDER) - integral(&matrix, span, terms);
+            assert!(missing.abs() <= bound * 1e-15, "{missing}");
+            terms
+        });
+        assert!(terms[0] <= ORDER / 2 && terms.is_sorted_by(|few, more| few < more), "{terms:?}");
     }
 
     proptest! {
