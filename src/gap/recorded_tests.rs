@@ -22,6 +22,12 @@ pub const PUT_AT_A_BEAM: &str = "tests/data/belt-whose-parts-are-put-at-a-beam.c
 pub const LATE_GRIPPER: &str = "tests/data/gripper-that-is-switched-on-late.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
+/// A pusher whose switch at the retracted end is blind over 100 mm and so never comes again, beside a motor and a gripper.
+pub const BLIND_SWITCH: &str = "tests/data/pusher-whose-switch-is-blind.cps.jsonl.zst";
+/// A robot whose gripping axis turns with a lag of 0.23 ms, which its nominal limits nearly make up for, beside a gripper.
+pub const LAGGING_ROBOT: &str = "tests/data/robot-whose-axis-lags-a-little.cps.jsonl.zst";
+/// A belt whose parts slip on it beyond 0.2 m/s², beside a motor.
+pub const SLIPPING_PARTS: &str = "tests/data/belt-whose-parts-slip.cps.jsonl.zst";
 
 /// The rig that was recorded.
 pub fn rig() -> Plant {

@@ -413,6 +413,9 @@ pub fn settle(bench: &Bench<'_>, weighed: &Bench<'_>, trial: &Trial, is_first: b
     Some((trial, subject))
 }
 
+/// How much less, in deviance, what acts by the same numbers must cost than the answer to be it.
+const SURELY_LESS: f64 = 2.0;
+
 /// What nominal parameters must gain, in deviance, to have followed.
 const GAINED_BY_FOLLOWING: f64 = 1.0;
 
@@ -426,20 +429,39 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
     });
     let as_single = of_answer.and_then(|trial| weighed.trial(&trial.set, trial.at.clone()));
     let has_followed = as_single.is_some_and(|there| there.cost - ladder.best.cost > GAINED_BY_FOLLOWING);
+    let answer = &ladder.best.at[..ladder.best.parameters()];
     let fitted = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
         let there = weighed.trial(&trial.set, trial.at.clone())?;
         let is_near = ladder.bare.cost - there.cost > NEAR_THE_BEST * (ladder.bare.cost - ladder.best.cost);
-        if rank >= MOST || !is_near || (there.cost == trial.cost && !has_followed) {
+        let is_fitted = there.cost == trial.cost && !has_followed && !acts_alike(trial, &ladder.best);
+        if rank >= MOST || !is_near || is_fitted {
             return Some(there);
         }
-        // Also from where they went for the answer: among times that are known within cycles no slope leads there.
+        // Also from where they went for the answer: among times that are known within cycles no slope leads there. What acts by the same numbers
+        // may be where the answer is.
         let as_answer = weighed.carried(&trial.set, &ladder.best.overrides);
+        let same = acts_alike(trial, &ladder.best).then(|| [answer, &as_answer].concat());
         let starts = [trial.at.clone(), [&trial.at[..trial.parameters()], &as_answer].concat()];
+        let starts: Vec<Vec<f64>> = starts.into_iter().chain(same).collect();
         weighed.fit(&trial.set, &starts, anew(trial.at.len())).or(Some(there))
     });
     let mut fitted: Vec<Trial> = fitted.collect();
     fitted.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let handicapped = |trial: &Trial| trial.cost + handicap(trial, 0) * trial.inflation();
+    let is_better = |trial: &&Trial| {
+        acts_alike(trial, &ladder.best) && handicapped(trial) < handicapped(&ladder.best) - SURELY_LESS
+    };
+    if let Some(better) = fitted.iter().find(is_better).cloned() {
+        ladder.best = better;
+    }
     ladder.singles = fitted;
+}
+
+/// Whether two single effects say what they do by numbers of the same names: a belt's slip and its parts' both by an acceleration.
+fn acts_alike(one: &Trial, other: &Trial) -> bool {
+    let names =
+        |trial: &Trial| trial.set.iter().flat_map(|of| of.free.iter().map(|free| free.name)).collect::<Vec<_>>();
+    names(one) == names(other)
 }
 
 /// What a candidate beside `below` others has to gain over one with one parameter that is an effect.

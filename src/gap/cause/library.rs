@@ -102,6 +102,8 @@ impl Library<'_> {
         places
             .flat_map(|&place| self.components(place).into_iter().map(move |component| (place, component)))
             .filter(|(_, component)| effect.id != "offset" || !self.counts_from_nothing(*component))
+            // A cylinder's valve is switched, one way or the other: no speed that is asked of it is a small one.
+            .filter(|_| effect.id != "dead-band" || !self.subject.parameters.0.contains_key("extendSpeed"))
             // A polarity is one signal's: nobody crosses the wires of a whole link.
             .filter(|(_, component)| effect.id != "inverted" || component.is_some())
             .flat_map(|(place, component)| self.variants(effect, place, component))
@@ -263,6 +265,7 @@ mod tests {
     use super::*;
     use crate::device::KINDS;
     use crate::effect;
+    use crate::gap::recorded_tests::{SLOW_PUSHER, study};
     use crate::gap::{Overrides, Recording, Study};
     use crate::plant::{self, embedded::Embedded};
     use crate::trace::Reader;
@@ -291,6 +294,16 @@ mod tests {
         let reader = Reader::new("slow", Cursor::new(text.into_bytes())).expect("a trace");
         let recording = Recording::read(&plant, "slow", reader, &[]).expect("a recording");
         Study::new(&plant, &[recording]).expect("a study")
+    }
+
+    /// What switches a cylinder's valve has no small values about which nothing happens.
+    #[test]
+    fn a_cylinder_has_no_dead_band() {
+        let study = study(SLOW_PUSHER);
+        let pusher = study.subject("Pusher").expect("it moves");
+        let nominal = pusher.predict(&[], &Overrides::none()).expect("a prediction");
+        let of = |id: &str| candidates(pusher, &nominal, &pusher.score(&nominal), &|of| of == id).len();
+        assert_eq!((of("dead-band"), of("gain-error")), (0, 1));
     }
 
     /// Three thousandths of what a slow axis moves at is less than the least speed that friction may fall within: the search begins there.

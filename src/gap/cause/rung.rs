@@ -28,6 +28,9 @@ use crate::plant::EffectPlace;
 /// Which share of what the most promising one promises a candidate must promise to be fitted, of one parameter and of several.
 const BESIDE_THE_BEST: [f64; 2] = [0.1, 0.03];
 
+/// Which share of what slopes say that it gains a trial must gain, for its nominal parameters to be where they should.
+const FALLS_SHORT: f64 = 0.5;
+
 /// Every candidate that is admitted beside the effects of `below`, those held as they are; the best first.
 pub fn rung(
     bench: &Bench<'_>,
@@ -96,13 +99,16 @@ pub fn rung(
             false => glance,
         };
         let follows = is_strained && !glance.candidate.free.is_empty() && is_beside_the_best(&glance);
+        let gain = glance.gain;
         let trial = match is_near {
             true => whole.fit_closely(glance, is_part),
             false if glance.candidate.free.is_empty() => whole.trial_at(&glance, &[]),
             // What promised little gets no nominal parameters of its own.
             false => bench.trial(&glance.set, whole.all(&glance, &glance.at)),
         }?;
-        Some((trial, follows))
+        // Where the nominal parameters do not go along their slopes so far, it takes away less than it did with them going there.
+        let falls_short = is_smooth && is_near && below.cost - trial.cost < FALLS_SHORT * gain;
+        Some((trial, follows || falls_short))
     });
     let trials: Vec<Trial> = followed(bench, looks.bench, below, trials.collect()).into_iter().chain(hidden).collect();
     // Weighed by what the effects so far leave, ten times as much is hardly anything else than 60/2π times as much.

@@ -36,6 +36,8 @@ pub const UNLIMITED: f64 = 1e8;
 /// How fast what hangs on a spring swings where the search for it begins, rad/s, and how fast it may.
 const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0, 896.0, 1792.0];
 const STIFFEST: f64 = 3000.0;
+/// How many times as long as a flag stays it must come later never to come.
+const NEVER_COMES: f64 = 1.05;
 /// How long vacuum holds where the search for a leak begins, s.
 const HOLDS_S: &[f64] = &[0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0, 5.0, 10.0];
 /// The longest time that is searched for, s.
@@ -229,6 +231,11 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
     if parameter.quantities.contains(&Quantity::Time) {
         let longest = greatest.min(LONGEST_S);
         let mut starts: Vec<f64> = time_starts(clues).into_iter().filter(|time| *time < longest).collect();
+        let of_flag = ["on-delay", "off-delay"].contains(&candidate.effect.id);
+        let never = of_flag.then(|| longest_stay(clues, candidate.effect.id == "on-delay")).flatten();
+        let never = never.map(|stay| (NEVER_COMES * stay).min(greatest));
+        let longest = never.map_or(longest, |never| longest.max(2.0 * never).min(greatest));
+        starts.extend(never);
         if candidate.effect.id == "stale-hold" && candidate.place == EffectPlace::ReportLink {
             starts.extend(refresh::period(clues, longest));
         }
@@ -368,6 +375,22 @@ fn time_starts(clues: &Clues<'_>) -> Vec<f64> {
     times
 }
 
+/// How long the component's flag is predicted to stay up, or down, at the longest, s; `None` where it came to be so in a recording.
+fn longest_stay(clues: &Clues<'_>, is_up: bool) -> Option<f64> {
+    let signal = clues.subject.signals.iter().position(|info| Some(info.property.as_str()) == clues.component)?;
+    let mut longest: Option<f64> = None;
+    for (predicted, run) in clues.nominal.runs.iter().zip(&clues.subject.runs) {
+        let (Predicted::Edges { edges, .. }, Some(track)) = (&predicted[signal], &run.tracks[signal]) else { continue };
+        if track.edges.iter().any(|edge| (edge.to > 0.5) == is_up) {
+            return None;
+        }
+        let until = edges.iter().skip(1).map(|edge| edge.at).chain([run.ends]);
+        let stays = edges.iter().zip(until).filter(|(edge, _)| (edge.to > 0.5) == is_up);
+        longest = stays.map(|(edge, until)| until - edge.at).chain(longest).max_by(f64::total_cmp);
+    }
+    longest
+}
+
 /// How late the edges are that are, s.
 fn late(clues: &Clues<'_>) -> Vec<f64> {
     let edges = clues.score.signals.iter().flat_map(|signal| &signal.edges);
@@ -379,7 +402,25 @@ fn late(clues: &Clues<'_>) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::gap::Overrides;
-    use crate::gap::recorded_tests::{SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{BLIND_SWITCH, SLOW_PUSHER, study};
+
+    /// A switch that is told late enough never comes, and one that is told for long enough never goes; this one went.
+    #[test]
+    fn a_flag_that_never_comes_may_be_late() {
+        let study = study(BLIND_SWITCH);
+        let pusher = study.subject("Pusher").expect("it moves");
+        let nominal = pusher.predict(&[], &Overrides::none()).expect("a prediction");
+        let score = pusher.score(&nominal);
+        let longest = |component, is_up| {
+            let scales = Scales::of(pusher, &nominal, None);
+            longest_stay(
+                &Clues { subject: pusher, nominal: &nominal, score: &score, scales, component: Some(component) },
+                is_up,
+            )
+        };
+        assert!(longest("limitRetracted", true).is_some_and(|stay| (0.1..3.0).contains(&stay)));
+        assert_eq!(longest("limitRetracted", false), None);
+    }
 
     /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.
     #[test]

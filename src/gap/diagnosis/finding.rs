@@ -302,7 +302,7 @@ mod tests {
     use crate::effect::EFFECTS;
     use crate::gap::cause::Free;
     use crate::gap::fit::Range;
-    use crate::gap::recorded_tests::{LATE_GRIPPER, LATE_PUSHER, RUBBING_AXIS, study};
+    use crate::gap::recorded_tests::{LAGGING_ROBOT, LATE_GRIPPER, LATE_PUSHER, RUBBING_AXIS, SLIPPING_PARTS, study};
 
     fn candidate(id: &str) -> Candidate {
         let effect = EFFECTS.iter().find(|effect| effect.id == id).expect("an effect");
@@ -330,6 +330,37 @@ mod tests {
         let named: Vec<&str> = found.ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
         assert!(found.conclusion == Conclusion::Explained && found.chance.is_none(), "{named:?}");
         assert_eq!(named, ["clock-drift"]);
+    }
+
+    /// A short lag is what a lower speed and acceleration nearly are: they have to go back for it to show what it takes away, and further than their slopes say.
+    #[test]
+    fn a_lag_that_nominal_limits_make_up_for_is_found() {
+        let named = named(LAGGING_ROBOT, "Robot", &["first-order-lag", "dead-time"]);
+        assert!(
+            matches!(named.as_slice(), [(id, time)] if (id == "dead-time" || id == "first-order-lag") && (time - 2.31e-4).abs() < 1e-5),
+            "{named:?}"
+        );
+    }
+
+    /// Parts that slip and the belt that does are alike where a search ended on the way; where it ends at last the parts cost less.
+    #[test]
+    fn of_two_slips_the_one_that_costs_less_is_named() {
+        let named = named(SLIPPING_PARTS, "Belt", &["part-slip", "belt-slip-above-acceleration"]);
+        assert!(
+            matches!(named.as_slice(), [(id, limit)] if id == "part-slip" && (limit - 0.2).abs() < 0.01),
+            "{named:?}"
+        );
+    }
+
+    /// What alone explains a device, with its first number.
+    fn named(recording: &str, device: &str, asked: &[&str]) -> Vec<(String, f64)> {
+        let study = study(recording);
+        let place = study.subjects.iter().position(|subject| subject.name == device).expect("it moves");
+        let is_asked = |id: &str| asked.contains(&id);
+        let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+        let found = find(place, &study.subjects[place], &study.bare[place], &study, &options).expect("a finding");
+        assert!(found.conclusion == Conclusion::Explained && found.chance.is_none());
+        found.ladder.best.values().map(|(candidate, own)| (candidate.effect.id.to_owned(), own[0])).collect()
     }
 
     /// Of a gripper that is switched on late few reports are late, each by a whole cycle, as if some commands came late by times of their own.
