@@ -20,6 +20,7 @@
 //! and a bootstrap is made of sums over spans of time of what [`Score`] holds. Everything here may be shared between threads.
 //! The work of a study is spread over the cores with rayon, whose threads no line of ours starts or names.
 
+mod age;
 mod alone;
 mod apply;
 mod bay;

@@ -22,6 +22,8 @@ pub const PUT_AT_A_BEAM: &str = "tests/data/belt-whose-parts-are-put-at-a-beam.c
 pub const LATE_GRIPPER: &str = "tests/data/gripper-that-is-switched-on-late.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
+/// A robot whose reports are 68 µs late, beside a motor and an axis whose are 532 µs old.
+pub const LATE_ROBOT: &str = "tests/data/robot-whose-reports-are-late.cps.jsonl.zst";
 /// A pusher whose switch at the retracted end is blind over 100 mm and so never comes again, beside a motor and a gripper.
 pub const BLIND_SWITCH: &str = "tests/data/pusher-whose-switch-is-blind.cps.jsonl.zst";
 /// A robot whose gripping axis turns with a lag of 0.23 ms, which its nominal limits nearly make up for, beside a gripper.

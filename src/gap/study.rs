@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::age;
 use super::bay::Bay;
 use super::cause::Bare;
 use super::clocks::{self, ClockOffset};
@@ -231,6 +232,12 @@ impl Study {
                 filter::find_beside_parameters(known, &mut self.subjects, &self.nominal, &mut self.bare)
         {
             self.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
+        }
+        if is_machine
+            && self.tasks.iter().any(|task| *task != Task::default())
+            && let Some(by_s) = age::find_beside_parameters(&mut self.subjects, &mut self.nominal, &mut self.bare)
+        {
+            self.tasks.iter_mut().for_each(|task| task.age_s += by_s);
         }
         let each = self.subjects.par_iter().zip(&self.nominal).zip(&mut self.bare);
         each.filter(|((subject, _), bare)| !subject.has_levels() && is_off((*subject, &**bare)))

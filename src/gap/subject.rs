@@ -485,9 +485,9 @@ impl Subject {
         self.runs[run].task = task;
     }
 
-    /// Has the reports of all runs be so old, s.
-    pub(super) fn let_reports_be(&mut self, age_s: f64) {
-        self.runs.iter_mut().for_each(|run| run.task.age_s = age_s);
+    /// Has the reports of all runs be older by so much, s.
+    pub(super) fn let_reports_be_older(&mut self, by_s: f64) {
+        self.runs.iter_mut().for_each(|run| run.task.age_s += by_s);
     }
 
     /// Has the commands of a run act as much later than their stamps say as their ways were longer than most.

@@ -134,10 +134,10 @@ fn read_again(
     (known.is_some() || explains_all(&anew)).then_some(anew)
 }
 
-/// The same device where reports are so old, s.
-fn older(subject: &Subject, age_s: f64) -> Option<(Subject, Bare)> {
+/// The same device where reports are so much older, s.
+fn older(subject: &Subject, by_s: f64) -> Option<(Subject, Bare)> {
     let mut subject = subject.clone();
-    subject.let_reports_be(age_s);
+    subject.let_reports_be_older(by_s);
     let nominal = subject.predict(&[], &Overrides::none()).ok()?;
     let bare = Bare::new(&subject, &nominal);
     Some((subject, bare))
