@@ -14,7 +14,7 @@ use super::remainder::{Left, left_by};
 use super::rung::{beneath, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
-use crate::gap::fit::{Effort, Spread, spread, sum_of_squares};
+use crate::gap::fit::{Effort, Range, Spread, spread, sum_of_squares};
 use crate::gap::statistics::{Draws, least_gain, quantile, standing_out};
 use crate::gap::{FAR_BEYOND, Prediction, Score, Subject, THRESHOLD, evidence, evidence_all_along, gains_with_motion};
 
@@ -440,7 +440,9 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
         // Also from where they went for the answer: among times that are known within cycles no slope leads there. What acts by the same numbers
         // may be where the answer is.
         let as_answer = weighed.carried(&trial.set, &ladder.best.overrides);
-        let same = acts_alike(trial, &ladder.best).then(|| [answer, &as_answer].concat());
+        let is_within = |(range, value): (&Range, &f64)| (range.least..=range.greatest).contains(value);
+        let may_be_there = acts_alike(trial, &ladder.best) && trial.ranges.iter().zip(answer).all(is_within);
+        let same = may_be_there.then(|| [answer, &as_answer].concat());
         let starts = [trial.at.clone(), [&trial.at[..trial.parameters()], &as_answer].concat()];
         let starts: Vec<Vec<f64>> = starts.into_iter().chain(same).collect();
         weighed.fit(&trial.set, &starts, anew(trial.at.len())).or(Some(there))
@@ -452,7 +454,7 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
         acts_alike(trial, &ladder.best) && handicapped(trial) < handicapped(&ladder.best) - SURELY_LESS
     };
     if let Some(better) = fitted.iter().find(is_better).cloned() {
-        ladder.best = better;
+        (ladder.best, ladder.ends) = (better, None);
     }
     ladder.singles = fitted;
 }
@@ -461,7 +463,8 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
 fn acts_alike(one: &Trial, other: &Trial) -> bool {
     let names =
         |trial: &Trial| trial.set.iter().flat_map(|of| of.free.iter().map(|free| free.name)).collect::<Vec<_>>();
-    names(one) == names(other)
+    let own = names(one);
+    !own.is_empty() && own == names(other)
 }
 
 /// What a candidate beside `below` others has to gain over one with one parameter that is an effect.
@@ -556,6 +559,18 @@ mod tests {
     use super::*;
     use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
     use crate::gap::cause::library::candidates;
+
+    /// Metres told as millimetres and as inches have nothing in common to be tried.
+    #[test]
+    fn what_has_no_number_acts_like_nothing() {
+        let (subject, _, rubs) = rubbing_axis();
+        let stop = || false;
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let [bare, rubbing] =
+            [(vec![], vec![]), (rubs, vec![30.0])].map(|(set, at)| bench.trial(&set, at).expect("a trial"));
+        assert!(acts_alike(&rubbing, &rubbing));
+        assert!(!acts_alike(&bare, &bare) && !acts_alike(&rubbing, &bare));
+    }
 
     /// A position that is always reported a little too great leaves the same from one sample to the next: what it is is looked for all the same.
     #[test]
