@@ -34,9 +34,7 @@ struct Older {
 
 impl Older {
     fn new(subject: &Subject, bare: &Bare, by_s: f64) -> Option<Older> {
-        let mut subject = subject.clone();
-        subject.let_reports_be_older(by_s);
-        let nominal = subject.predict(&[], &Overrides::none()).ok()?;
+        let (subject, nominal) = older(subject, by_s)?;
         let bare = if subject.has_levels() { bare.again(&subject, &nominal) } else { bare.beside(&subject, &nominal) };
         Some(Older { subject, nominal, bare })
     }
@@ -48,6 +46,14 @@ impl Older {
     fn is_off(&self) -> bool {
         evidence(&self.subject, &self.bare.prediction) > THRESHOLD
     }
+}
+
+/// A device whose reports are older by so much, s, and what it predicts nominally.
+pub(super) fn older(subject: &Subject, by_s: f64) -> Option<(Subject, Prediction)> {
+    let mut subject = subject.clone();
+    subject.let_reports_be_older(by_s);
+    let nominal = subject.predict(&[], &Overrides::none()).ok()?;
+    Some((subject, nominal))
 }
 
 /// By how much longer all reports are old, s, which is set in all subjects; `None` where it is as it was found.
@@ -64,10 +70,10 @@ pub(super) fn find_beside_parameters(
     if off.len() < 2 || in_order.is_empty() {
         return None;
     }
-    let older = |at: usize, by_s: f64| Older::new(&subjects[at], &bare[at], by_s);
+    let with = |at: usize, by_s: f64| Older::new(&subjects[at], &bare[at], by_s);
     // What each costs at three ages.
     let costs = |at: usize| -> Option<[f64; 3]> {
-        let costs = [-APART_S, 0.0, APART_S].map(|by_s| older(at, by_s).map(|older| older.cost()));
+        let costs = [-APART_S, 0.0, APART_S].map(|by_s| with(at, by_s).map(|older| older.cost()));
         Some([costs[0]?, costs[1]?, costs[2]?])
     };
     let all = |places: &[usize]| -> Option<Vec<[f64; 3]>> {
@@ -79,7 +85,7 @@ pub(super) fn find_beside_parameters(
     let may_be = |by_s: &f64| of_machine.iter().all(|age_s| (0.0..=MOST_AGE_S).contains(&(age_s + by_s)));
     let mut tried: Vec<(usize, f64, f64, Vec<Older>)> = Vec::new();
     for by_s in ages.into_iter().filter(may_be) {
-        let all = (0..subjects.len()).into_par_iter().with_max_len(1).map(|at| older(at, by_s));
+        let all = (0..subjects.len()).into_par_iter().with_max_len(1).map(|at| with(at, by_s));
         let all = all.collect::<Option<Vec<Older>>>()?;
         let cost = in_order.iter().map(|at| all[*at].cost()).sum();
         tried.push((all.iter().filter(|older| older.is_off()).count(), cost, by_s, all));

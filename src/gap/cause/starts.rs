@@ -231,9 +231,12 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
     if parameter.quantities.contains(&Quantity::Time) {
         let longest = greatest.min(LONGEST_S);
         let mut starts: Vec<f64> = time_starts(clues).into_iter().filter(|time| *time < longest).collect();
-        let of_flag = ["on-delay", "off-delay"].contains(&candidate.effect.id);
-        let never = of_flag.then(|| longest_stay(clues, candidate.effect.id == "on-delay")).flatten();
-        let never = never.map(|stay| (NEVER_COMES * stay).min(greatest));
+        let stay = match candidate.effect.id {
+            "on-delay" => longest_stay(clues, true),
+            "off-delay" => longest_stay(clues, false),
+            _ => None,
+        };
+        let never = stay.map(|stay| (NEVER_COMES * stay).min(greatest));
         let longest = never.map_or(longest, |never| longest.max(2.0 * never).min(greatest));
         starts.extend(never);
         if candidate.effect.id == "stale-hold" && candidate.place == EffectPlace::ReportLink {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Options;
+use crate::gap::age::older;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, MOST_INFLATED, Nuisance, Remainder, Standing, Trial,
     anew, answers, climb, intervals, is_part, lets_go_at_once, misfit, of_each, plainness, remainder,
@@ -11,7 +12,7 @@ use crate::gap::chance::{self, Chance};
 use crate::gap::fit::Effort;
 use crate::gap::schedule::PART_SPACING;
 use crate::gap::task::{MOST_AGE_S, Task};
-use crate::gap::{FAR_BEYOND, Overrides, Score, Study, Subject, THRESHOLD, evidence};
+use crate::gap::{FAR_BEYOND, Score, Study, Subject, THRESHOLD, evidence};
 use crate::plant::{EffectPlace, EffectSpec};
 
 /// What a device's recordings say of it.
@@ -106,7 +107,8 @@ pub(super) fn find(
     let finding = conclude(place, (subject, bare), chance, study, options)?;
     let finding = read_again(&finding, (subject, bare), study, options).unwrap_or(finding);
     let aged = || {
-        let (subject, bare) = older(subject, finding.seeming_age(study)?)?;
+        let (subject, nominal) = older(subject, finding.seeming_age(study)?)?;
+        let bare = Bare::new(&subject, &nominal);
         let aged = conclude(place, (&subject, &bare), None, study, options).filter(explains_all)?;
         (aged.ladder.best.set.len() < finding.ladder.best.set.len()).then_some(aged)
     };
@@ -132,15 +134,6 @@ fn read_again(
     let chance = chance::beside((subject, bare), (&best.specs(), &best.overrides), known, options.is_asked)?;
     let anew = conclude(finding.subject, (subject, bare), Some(Arc::new(chance)), study, options)?;
     (known.is_some() || explains_all(&anew)).then_some(anew)
-}
-
-/// The same device where reports are so much older, s.
-fn older(subject: &Subject, by_s: f64) -> Option<(Subject, Bare)> {
-    let mut subject = subject.clone();
-    subject.let_reports_be_older(by_s);
-    let nominal = subject.predict(&[], &Overrides::none()).ok()?;
-    let bare = Bare::new(&subject, &nominal);
-    Some((subject, bare))
 }
 
 /// Whether its effects explain all of a gap.
