@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::looks::Looks;
-use super::prediction::{Passing, Predicted, PredictedEdge, Pulse};
+use super::prediction::{Passing, Predicted, PredictedEdge, Pulse, Turn};
 use super::restarts::{Restart, Restarts};
 use super::subject::Run;
 use super::tape::Tape;
@@ -122,6 +122,12 @@ impl Alone {
     /// The part that changed a beam last, if the port is that beam's.
     fn passing(&self, beam: Option<usize>) -> Option<Passing> {
         self.world.as_ref()?.last[beam?]
+    }
+
+    /// Where parts nearly changed a beam.
+    fn turns(&self, beam: Option<usize>) -> Vec<Turn> {
+        let of_beam = self.world.as_ref().zip(beam).map(|(world, beam)| world.turns(beam));
+        of_beam.into_iter().flatten().collect()
     }
 
     pub fn look(&mut self) -> &[f64] {
@@ -283,6 +289,11 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
             }
         }
     }
+    for view in &mut views {
+        if let Predicted::Edges { turns, .. } = &mut view.predicted {
+            *turns = alone.turns(view.beam);
+        }
+    }
     views.into_iter().map(|view| view.predicted).collect()
 }
 
@@ -310,7 +321,9 @@ impl View {
         let is_edge = watch.is_edge();
         let predicted = match watch.track {
             None => Predicted::Nothing,
-            Some(_) if is_edge => Predicted::Edges { initial: 0.0, edges: Vec::new(), unseen: Vec::new() },
+            Some(_) if is_edge => {
+                Predicted::Edges { initial: 0.0, edges: Vec::new(), unseen: Vec::new(), turns: Vec::new() }
+            }
             Some(track) => Predicted::Level(Vec::with_capacity(track.values.len())),
         };
         let mut alone = alone.clone();

@@ -71,6 +71,7 @@ mod task;
 mod tick;
 mod tolerance;
 mod track;
+mod turns;
 mod way;
 mod world;
 
@@ -88,7 +89,7 @@ pub use locate::{
 pub use mask::{MaskError, read_mask};
 pub use overrides::Overrides;
 pub use parts::Origin;
-pub use prediction::{Passing, Predicted, PredictedEdge, Prediction, Pulse};
+pub use prediction::{Passing, Predicted, PredictedEdge, Prediction, Pulse, Turn};
 pub use recording::{Beat, OtherClock, Recording, RecordingError, Span, Stamped, TaskId};
 pub use restarts::WINDOW_S;
 pub use score::{EdgeScore, LevelScore, Score, SignalScore};

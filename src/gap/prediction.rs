@@ -15,8 +15,8 @@ pub enum Predicted {
     /// Before all rounding, SI, at each instant of its track from its first.
     Level(Vec<f64>),
     /// The state at the track's first instant, and its changes that a look at each instant of the grid would show; and the pulses
-    /// within a cycle, which none shows.
-    Edges { initial: f64, edges: Vec<PredictedEdge>, unseen: Vec<Pulse> },
+    /// within a cycle, which none shows; and where a part nearly made one more.
+    Edges { initial: f64, edges: Vec<PredictedEdge>, unseen: Vec<Pulse>, turns: Vec<Turn> },
 }
 
 /// A state that came and went between two looks.
@@ -28,6 +28,23 @@ pub struct Pulse {
     pub until: f64,
     /// What the signal was in between.
     pub to: f64,
+}
+
+/// A belt turned when an edge of a part was about to come to a beam, or to leave it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// When, s.
+    pub at: f64,
+    /// Which of the run's parts.
+    pub part: usize,
+    /// What the beam would have become.
+    pub to: f64,
+    /// How far the edge was from the beam, m.
+    pub short: f64,
+    /// How steeply the belt's speed changed, m/s².
+    pub slope: f64,
+    /// 1 if the part was on its way through the beam as it first came, -1 if on its way back.
+    pub way: f64,
 }
 
 /// A change of a predicted state.
@@ -59,6 +76,14 @@ pub struct Passing {
 const SAME_EDGE_S: f64 = 1e-5;
 
 impl Predicted {
+    /// Lets what comes at an instant of its own come so much sooner, s.
+    pub(super) fn come_sooner(&mut self, by: f64) {
+        let Predicted::Edges { edges, unseen, turns, .. } = self else { return };
+        edges.iter_mut().for_each(|edge| edge.at -= by);
+        unseen.iter_mut().for_each(|pulse| (pulse.from, pulse.until) = (pulse.from - by, pulse.until - by));
+        turns.iter_mut().for_each(|turn| turn.at -= by);
+    }
+
     /// Whether another prediction of the same signal says something else: a level by more than `level`, RMS, in its unit; a state in
     /// where it begins, or in an edge's direction or instant.
     pub(super) fn differs(&self, other: &Predicted, level: f64) -> bool {
@@ -86,7 +111,7 @@ mod tests {
 
     fn state(initial: f64, edges: &[(f64, f64)]) -> Predicted {
         let edge = |(at, to): &(f64, f64)| PredictedEdge { at: *at, index: 0, to: *to, part: None };
-        Predicted::Edges { initial, edges: edges.iter().map(edge).collect(), unseen: Vec::new() }
+        Predicted::Edges { initial, edges: edges.iter().map(edge).collect(), unseen: Vec::new(), turns: Vec::new() }
     }
 
     #[test]

@@ -85,7 +85,7 @@ impl Course {
             }
             dark = dark.max(to);
         }
-        Predicted::Edges { initial: 0.0, edges, unseen: Vec::new() }
+        Predicted::Edges { initial: 0.0, edges, unseen: Vec::new(), turns: Vec::new() }
     }
 
     /// When a part is no more on the belt, s.

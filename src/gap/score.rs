@@ -5,11 +5,12 @@ use serde::Serialize;
 use super::cost::{self, residual};
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::filter::MOST_FILTER_S;
-use super::prediction::{PredictedEdge, Pulse};
+use super::prediction::{PredictedEdge, Pulse, Turn};
 use super::samples::{Sample, Samples};
 use super::shifts::shifted;
 use super::tolerance::Weighed;
 use super::track::Track;
+use super::turns;
 
 /// What a prediction costs: −2 ln of its likelihood, less that of a perfect one; smaller is better, and a difference of two is
 /// a deviance.
@@ -52,6 +53,18 @@ pub struct LevelScore {
     pub residual: Vec<f64>,
     /// Recorded less predicted, SI.
     pub difference: Vec<f64>,
+}
+
+/// What is foreseen of a signal that has edges.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Foreseen<'a> {
+    pub edges: &'a [PredictedEdge],
+    /// Pulses that no look of the prediction shows.
+    pub unseen: &'a [Pulse],
+    /// Where a part nearly made one more.
+    pub turns: &'a [Turn],
+    /// How much further each of the parts that pass was than its first edge said, m.
+    pub shifts: &'a [f64],
 }
 
 /// An edge: a pair, or one that only one side has.
@@ -196,15 +209,9 @@ impl SignalScore {
         }
     }
 
-    /// An edge whose `predicted` changes stand for those of its track; `sigma` is how far a sensor may be off in time, s.
-    /// `shifts` are those of the parts that pass, `unseen` pulses that no look of the prediction shows.
-    pub(super) fn edges(
-        place: (usize, usize),
-        track: &Track,
-        (predicted, unseen): (&[PredictedEdge], &[Pulse]),
-        shifts: &[f64],
-        sigma: f64,
-    ) -> Self {
+    /// An edge whose changes as they are `foreseen` stand for those of its track; `sigma` is how far a sensor may be off in time, s.
+    pub(super) fn edges(place: (usize, usize), track: &Track, foreseen: &Foreseen<'_>, sigma: f64) -> Self {
+        let Foreseen { edges: predicted, unseen, turns, shifts } = *foreseen;
         let mut pairs = pair(track, predicted, sigma);
         leave_out_pulses(&mut pairs, predicted, track, sigma);
         let with_pulses = pair_with_pulses(&mut pairs, (predicted, unseen), track, sigma);
@@ -216,7 +223,8 @@ impl SignalScore {
         let predicted = with_pulses.as_deref().unwrap_or(predicted);
         let kept = pairs.iter().zip(&sigmas).map(|(pair, sigma)| edge(track, predicted, shifts, pair, *sigma));
         let mut edges: Vec<EdgeScore> = kept.flatten().collect();
-        weigh_turns(&mut edges);
+        turns::weigh_unrecorded(&mut edges);
+        turns::weigh_unforeseen(&mut edges, turns, shifts, track.tolerance);
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
         let count = errors.len().max(1) as f64;
@@ -264,23 +272,6 @@ fn leave_out_pulses(pairs: &mut Vec<Pair>, predicted: &[PredictedEdge], track: &
             pairs.drain(at..at + 2);
         } else {
             at += 1;
-        }
-    }
-}
-
-/// Weighs predicted pulses that nobody recorded by how deep they go beside how well that is known. A part that comes to a beam and turns there is
-/// in it by v·T/4 at most, where it was at v at the beam and is back there after T, its speed changing evenly; where it is, is known to v·u with
-/// the edges' uncertainty u. So T/(4·u) standard deviations hide such a pulse.
-fn weigh_turns(edges: &mut [EdgeScore]) {
-    for at in 1..edges.len() {
-        let [on, off] = &mut edges[at - 1..=at] else { continue };
-        let both = on.predicted.zip(off.predicted).filter(|_| on.recorded.is_none() && off.recorded.is_none());
-        let Some(long) = both.map(|(from, until)| until - from).filter(|_| on.to != off.to) else { continue };
-        let deep = long / (4.0 * on.uncertainty.max(off.uncertainty));
-        let cost = (0.5 * deep * deep).min(cost::unmatched());
-        for edge in [on, off] {
-            edge.cost = edge.cost.min(cost);
-            edge.residual = edge.residual.signum() * edge.cost.sqrt();
         }
     }
 }
@@ -419,31 +410,6 @@ mod tests {
         assert_eq!(left_of(&[1.0, 1.003, 2.01, 2.5]), [2, 3]);
     }
 
-    /// A part that should turn in a beam for 0.4 s, its place known to what takes 0.05 s: two standard deviations hide that; one that
-    /// passes it is missed, and so is one that is recorded alone.
-    #[test]
-    fn how_deep_a_part_turns_in_a_beam_weighs_that_nobody_saw_it() {
-        let edge = |at: f64, to: f64, uncertainty: f64| EdgeScore {
-            to,
-            recorded: None,
-            predicted: Some(at),
-            error: 0.0,
-            uncertainty,
-            cost: cost::unmatched(),
-            residual: -cost::unmatched().sqrt(),
-        };
-        let cost_of = |mut edges: [EdgeScore; 2]| {
-            weigh_turns(&mut edges);
-            edges.iter().for_each(|edge| assert!((edge.residual + edge.cost.sqrt()).abs() < 1e-12));
-            edges[0].cost + edges[1].cost
-        };
-        assert!((cost_of([edge(3.0, 1.0, 0.05), edge(3.4, 0.0, 0.05)]) - 4.0).abs() < 1e-9);
-        assert_eq!(cost_of([edge(3.0, 1.0, 0.01), edge(3.4, 0.0, 0.01)]), 2.0 * cost::unmatched());
-        let mut recorded = [edge(3.0, 1.0, 0.05), EdgeScore { recorded: Some((3.3, 3.4)), ..edge(3.4, 0.0, 0.05) }];
-        weigh_turns(&mut recorded);
-        assert_eq!(recorded[0].cost, cost::unmatched());
-    }
-
     /// Shown by one report, 30 µs after it came or before it went, or 4 ms after it came, which a filter may be; or by one that would not
     /// miss it; and by two.
     #[test]
@@ -464,7 +430,12 @@ mod tests {
             pulse(at(40) + 1e-3, at(40) + 2e-2),
             pulse(at(60) + 1e-5, at(60) + 2e-2),
         ];
-        let score = SignalScore::edges((0, 0), &track, (&[], &unseen), &[], 1e-5);
+        let score = SignalScore::edges(
+            (0, 0),
+            &track,
+            &Foreseen { edges: &[], unseen: &unseen, turns: &[], shifts: &[] },
+            1e-5,
+        );
         assert_eq!(score.missing(), 4);
         assert_eq!(score.edges.len(), recorded.len());
         assert!(score.edges[2].predicted.is_some() && score.edges[2].cost < 16.0, "{:?}", score.edges[2]);

@@ -18,7 +18,7 @@ use super::recording::{Beat, Recording, Stamped, TaskId};
 use super::restarts::Restarts;
 use super::samples::Samples;
 use super::schedule::Course;
-use super::score::{Score, SignalScore};
+use super::score::{Foreseen, Score, SignalScore};
 use super::shifts::{Barrier, likeliest_shifts, relengthed};
 use super::study::Grids;
 use super::surroundings::{self, Sizes};
@@ -244,12 +244,7 @@ impl Subject {
                     alone::run(Alone::new(device.boxed(), self.kind.ports.len(), script), run, &watches);
                 for (predicted, watch) in predicted.iter_mut().zip(&watches) {
                     // By the clock of the reports.
-                    if let Predicted::Edges { edges, unseen, .. } = predicted {
-                        edges.iter_mut().for_each(|edge| edge.at -= watch.lead);
-                        unseen.iter_mut().for_each(|pulse| {
-                            (pulse.from, pulse.until) = (pulse.from - watch.lead, pulse.until - watch.lead);
-                        });
-                    }
+                    predicted.come_sooner(watch.lead);
                 }
                 predicted
             };
@@ -320,9 +315,9 @@ impl Subject {
                     Predicted::Level(values) => {
                         Some(SignalScore::level((signal, at), track, values, &run.weighed(signal), info.is_count))
                     }
-                    Predicted::Edges { edges, unseen, .. } => {
-                        let sigma = run.edge_sigmas[signal];
-                        Some(SignalScore::edges((signal, at), track, (edges, unseen), &shifts, sigma))
+                    Predicted::Edges { edges, unseen, turns, .. } => {
+                        let foreseen = Foreseen { edges, unseen, turns, shifts: &shifts };
+                        Some(SignalScore::edges((signal, at), track, &foreseen, run.edge_sigmas[signal]))
                     }
                 });
             }
@@ -345,9 +340,9 @@ impl Subject {
                         let samples = Samples::new(track, values, &weighed, info.is_count);
                         samples.each(|sample| residuals.push(residual(sample.cost, sample.difference)));
                     }
-                    (Some(track), Predicted::Edges { edges, unseen, .. }) => {
-                        let sigma = run.edge_sigmas[signal];
-                        let score = SignalScore::edges((signal, at), track, (edges, unseen), &shifts[at], sigma);
+                    (Some(track), Predicted::Edges { edges, unseen, turns, .. }) => {
+                        let foreseen = Foreseen { edges, unseen, turns, shifts: &shifts[at] };
+                        let score = SignalScore::edges((signal, at), track, &foreseen, run.edge_sigmas[signal]);
                         score.add_residuals(&mut residuals);
                     }
                     _ => {}

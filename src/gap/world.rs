@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::lane::{Lane, Rider, Step};
-use super::prediction::Passing;
+use super::prediction::{Passing, Turn};
 use crate::device::law::follower::Slider;
 use crate::device::path::STRETCH_S;
 use crate::device::{Belt, Device, Role, Surroundings};
@@ -118,6 +118,8 @@ pub(super) struct Leg {
 
 /// How far behind a beam a part is forgotten, m.
 const GONE_M: f64 = 0.05;
+/// How near to a beam an edge of a part is that only just does not come to it, m.
+const NEARLY_M: f64 = 0.02;
 /// How often the instant of a crossing is halved.
 const HALVINGS: u32 = 30;
 
@@ -134,6 +136,10 @@ pub(super) struct World {
     /// How what came last and no beam has seen slides on its way to the first.
     unseen: Slider,
     next_put: usize,
+    /// Which way the belt went last: 1 or -1, 0 before it has.
+    towards: f64,
+    /// Where it turned with an edge of a part next to a beam.
+    turns: [Vec<Turn>; 2],
     /// How many of them are held back.
     queued: u32,
     told: Surroundings,
@@ -160,6 +166,8 @@ impl World {
             riders: Vec::new(),
             unseen: Slider::default(),
             next_put: 0,
+            towards: 0.0,
+            turns: Default::default(),
             queued: 0,
             shown_queue: 0,
             shown_here: 0,
@@ -247,8 +255,35 @@ impl World {
             if !self.riders.is_empty() {
                 self.queued = self.script.lane.carry_all(&mut self.riders, &step);
             }
+            self.note_turns(&step);
             from = to;
         }
+    }
+
+    /// Notes where the belt turned with an edge of a part next to a beam.
+    fn note_turns(&mut self, step: &Step) {
+        let (before, now) = (self.towards, if step.way == 0.0 { self.towards } else { step.way.signum() });
+        self.towards = now;
+        if before * now >= 0.0 {
+            return;
+        }
+        let slope = (step.speeds[1] - step.speeds[0]).abs() / (step.to - step.from).max(1e-9);
+        let near = |(cut, rider): (&Cut, &Rider)| {
+            let (progress, came) = (cut.way * rider.gone - cut.ahead, cut.way * before);
+            let is_in = progress > 0.0 && progress < cut.length;
+            // To the edge that comes next, as it went before it turned.
+            let short = if is_in == (came > 0.0) { cut.length - progress } else { progress };
+            let short = if is_in { short } else { -short };
+            let turn = Turn { at: step.to, part: cut.part, to: f64::from(u8::from(!is_in)), short, slope, way: came };
+            ((0.0..NEARLY_M).contains(&short) && !self.script.lane.has_left(rider)).then_some((cut.beam, turn))
+        };
+        let turned: Vec<(usize, Turn)> = self.passing().filter_map(near).collect();
+        turned.into_iter().for_each(|(beam, turn)| self.turns[beam].push(turn));
+    }
+
+    /// Where the belt turned with an edge of a part next to a beam.
+    pub fn turns(&self, beam: usize) -> Vec<Turn> {
+        self.turns[beam].clone()
     }
 
     /// Lets what no beam has seen slide, as one that is put there takes the belt's speed.
@@ -262,7 +297,7 @@ impl World {
 
     /// Moves on to `until`, or to the first crossing of a beam or an end.
     fn leg(&mut self, device: &mut Box<dyn Device>, now: f64, until: f64) -> Leg {
-        let (start, riders) = (device.clone(), self.riders.clone());
+        let (start, before) = (device.clone(), self.clone());
         self.carry(device.as_mut(), now, until);
         if self.is_as_shown() {
             return Leg { device: start, from: now, to: until, until };
@@ -270,15 +305,23 @@ impl World {
         let (mut low, mut high) = (0.0, until - now);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            self.riders.clone_from(&riders);
+            self.be_again(&before);
             self.carry(start.clone().as_mut(), now, now + middle);
             if self.is_as_shown() { low = middle } else { high = middle }
         }
         *device = start.clone();
-        self.riders = riders;
+        self.be_again(&before);
         self.carry(device.as_mut(), now, now + high);
         self.crossed(device.as_mut());
         Leg { device: start, from: now, to: now + low, until: now + high }
+    }
+
+    /// Takes back what [`World::carry`] has done since `before`.
+    fn be_again(&mut self, before: &World) {
+        self.riders.clone_from(&before.riders);
+        (self.unseen, self.next_put, self.queued) = (before.unseen, before.next_put, before.queued);
+        self.towards = before.towards;
+        self.turns.iter_mut().zip(&before.turns).for_each(|(turns, before)| turns.truncate(before.len()));
     }
 
     /// Reads on in the script up to `now`, and shows the device what has changed.
@@ -518,6 +561,42 @@ mod tests {
         assert!((started[0] - 0.5).abs() < 1e-9, "{started:?}");
         // The last came at 2.6 s as one that slid with the first: 1.4 s at 0.35 m/s and falling.
         assert!((gone[0] - 1.0).abs() < 1e-4 && gone[1] == 0.0 && (gone[2] - 0.245).abs() < 1e-4, "{gone:?}");
+    }
+
+    /// A belt at 0.5 m/s that changes its speed by 1 m/s² is told at 2 s to go back: a part that came at 1 s turns at 2.5 s after 0.625 m.
+    #[test]
+    fn a_part_that_turns_next_to_a_beam_is_told_of() {
+        let turns = |length: f64, ahead: f64| {
+            let cut =
+                Cut { part: 3, beam: 1, from: 1.0, ahead, front: 0.3, way: 1.0, length, is_known: false, taken: None };
+            let script = Script { cuts: vec![cut], ..Script::default() };
+            let mut world = World::new(&Arc::new(script)).expect("something passes");
+            let bench = crate::device::bench::Bench::new("kinetwin.StraightConveyor", &[("acceleration", "1")]);
+            let mut device = bench.device;
+            world.begin(device.as_mut());
+            device.command(0, 0.5);
+            device.command(1, 1.0);
+            let mut until = |device: &mut Box<dyn Device>, from: f64, to: f64| {
+                for step in 0..((to - from) / 0.01).round() as u32 {
+                    let now = from + 0.01 * f64::from(step);
+                    world.advance_in_legs(device, now, now + 0.01);
+                }
+            };
+            until(&mut device, 0.0, 2.0);
+            device.command(1, -1.0);
+            until(&mut device, 2.0, 3.0);
+            (world.turns(0), world.turns(1))
+        };
+        let one = |(none, found): (Vec<Turn>, Vec<Turn>)| {
+            let [turn] = found[..] else { panic!("{found:?}") };
+            let is_so = none.is_empty() && turn.part == 3 && turn.way == 1.0 && (turn.slope - 1.0).abs() < 1e-6;
+            assert!(is_so && (turn.at - 2.51).abs() < 0.011, "{turn:?}");
+            ((1e3 * turn.short).round(), turn.to)
+        };
+        // 5 mm before it has left the beam, or comes to it; and 15 mm past either, where it came and goes.
+        assert_eq!(one(turns(0.63, 0.0)), (5.0, 0.0));
+        assert_eq!(one(turns(0.3, 0.63)), (5.0, 1.0));
+        assert!(turns(0.61, 0.0).1.is_empty() && turns(0.3, 0.61).1.is_empty());
     }
 
     /// Its front goes onto the belt behind at 1.2 s, its middle at 1.5 s, its rear at 1.8 s.
