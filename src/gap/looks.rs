@@ -31,8 +31,9 @@ struct Stream<'a> {
     track: &'a Track,
     lead: f64,
     tick: f64,
-    /// The next instant of the grid.
+    /// The next instant of the grid, and when it is looked at, s; infinite behind the last.
     next: usize,
+    due: f64,
     /// How many instants one look may ever stand for while something may change.
     longest: usize,
     /// Whether it is of levels, which are looked at at every instant.
@@ -46,6 +47,12 @@ impl Stream<'_> {
         let at = *self.track.grid.instants.get(index)?;
         let at = if self.tick > 0.0 { (at / self.tick).round() * self.tick } else { at };
         Some((at + self.lead).max(0.0))
+    }
+
+    /// From now on that one is next.
+    fn go_on_at(&mut self, next: usize) {
+        self.next = next;
+        self.due = self.instant(next).unwrap_or(f64::INFINITY);
     }
 
     /// The last instant before `until`, if it is the next one or behind it.
@@ -89,10 +96,12 @@ impl<'a> Looks<'a> {
                 }
                 None => {
                     let (lead, tick, signals) = (watch.lead, run.sample_tick, vec![(signal, track.first)]);
-                    streams.push(Stream { track, lead, tick, next: track.first, longest, is_of_levels, signals });
+                    let (next, due) = (track.first, f64::INFINITY);
+                    streams.push(Stream { track, lead, tick, next, due, longest, is_of_levels, signals });
                 }
             }
         }
+        streams.iter_mut().for_each(|stream| stream.go_on_at(stream.next));
         let levels = watches.iter().filter(|watch| watch.track.is_some() && !watch.is_edge());
         let levels = levels.map(|watch| watch.port).collect();
         Looks { streams, levels, slowly: 0.0, stride: 1, leaps: false }
@@ -106,8 +115,10 @@ impl<'a> Looks<'a> {
     /// When the device is looked at next, `due` being the next command's instant and no state changing before `quiet`; `None` where there is
     /// nothing left to see.
     pub fn next(&mut self, due: Option<f64>, quiet: f64) -> Option<f64> {
-        let own = |stream: &Stream<'_>| stream.instant(stream.next);
-        let next = self.streams.iter().filter_map(own).min_by(f64::total_cmp)?;
+        let next = self.streams.iter().map(|stream| stream.due).fold(f64::INFINITY, f64::min);
+        if next == f64::INFINITY {
+            return None;
+        }
         self.leaps = false;
         if next >= self.slowly && quiet > next + SAME_S && self.are_of_states() {
             let until = due.map_or(quiet, |due| quiet.min(due - SAME_S));
@@ -120,7 +131,7 @@ impl<'a> Looks<'a> {
         if self.stride == 1 || next < self.slowly {
             return Some(next);
         }
-        let single = self.streams.iter().filter(|stream| stream.is_of_levels).filter_map(own).map(|at| at + SAME_S);
+        let single = self.streams.iter().filter(|stream| stream.is_of_levels).map(|stream| stream.due + SAME_S);
         let bound = single.chain(due.map(|due| due - SAME_S)).fold(f64::INFINITY, f64::min);
         let last = |stream: &Stream<'_>| stream.instant(stream.last(self.stride, bound));
         let leapt = self.streams.iter().filter_map(last).min_by(f64::total_cmp)?;
@@ -148,16 +159,15 @@ impl<'a> Looks<'a> {
     pub fn taken(&mut self, at: f64, mut see: impl FnMut(usize, usize)) {
         for stream in &mut self.streams {
             let first = stream.next;
-            while stream.instant(stream.next).is_some_and(|own| own <= at + SAME_S) {
-                stream.next += 1;
+            while stream.due <= at + SAME_S {
+                stream.go_on_at(stream.next + 1);
                 if stream.is_of_levels {
                     break;
                 }
             }
-            for (signal, own) in stream.signals.iter().filter(|(_, own)| *own < stream.next) {
-                if stream.next > first {
-                    see(*signal, first.max(*own));
-                }
+            if stream.next > first {
+                let seen = stream.signals.iter().filter(|(_, own)| *own < stream.next);
+                seen.for_each(|(signal, own)| see(*signal, first.max(*own)));
             }
         }
         self.stride = if at < self.slowly { 1 } else { (2 * self.stride).min(64) };

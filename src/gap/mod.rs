@@ -44,6 +44,7 @@ mod link;
 mod locate;
 mod looks;
 mod mask;
+mod missed;
 mod neighbours;
 mod noise;
 mod overrides;

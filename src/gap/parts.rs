@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use super::lane::{End, Lane, Rider, Step};
+use super::missed::{Missed, passed_unseen};
 use super::track::Track;
 use super::world::{Cut, PAST_M, Script, Surrounding, Told};
 
@@ -66,12 +67,9 @@ const PASSES_M: f64 = 0.05;
 /// apart.
 const BACK_M: f64 = 0.25;
 /// Which share of the parts of one barrier must reach the other for one that does not to be missed.
-const RELIABLE: f64 = 0.8;
+pub(super) const RELIABLE: f64 = 0.8;
 /// After how many times the longest part's way a barrier that is cut still has been left by what cut it.
 const STAYS: f64 = 2.0;
-/// In how many of its parts both barriers must have been reached; where one then stayed cut, which no part does, in this many.
-const ENOUGH: usize = 3;
-const ENOUGH_BEFORE_IT_STAYED: usize = 1;
 /// What an edge of a barrier is to a score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
@@ -83,22 +81,22 @@ pub enum Origin {
 
 /// An interval in which a beam was cut, in terms of its track's edges.
 #[derive(Clone, Copy, Debug)]
-struct Seen {
-    beam: usize,
+pub(super) struct Seen {
+    pub beam: usize,
     rise: usize,
     fall: Option<usize>,
     /// The belt's way at its rise, m.
-    start: f64,
+    pub start: f64,
     /// Instants, s: the middles of the cycles.
-    from: f64,
-    to: f64,
-    way: f64,
+    pub from: f64,
+    pub to: f64,
+    pub way: f64,
     /// Whether it stayed cut though the belt went on by more than any part is long.
-    stays: bool,
+    pub stays: bool,
     length: Option<f64>,
-    part: Option<usize>,
+    pub part: Option<usize>,
     /// The place of the cut that this one goes on with: the belt turned, and brought back what had left the beam.
-    again: Option<usize>,
+    pub again: Option<usize>,
     /// Whether it left the beam the way that it came, and did not come again.
     is_back: bool,
 }
@@ -121,9 +119,9 @@ pub(super) fn assign(
     seen.sort_by(|a, b| a.from.total_cmp(&b.from));
     find_again(geometry, &mut seen, travel);
     let parts = name_parts(geometry, &mut seen, travel);
-    let reliable = is_reliable(&seen, parts);
+    let missed = Missed::new(geometry, &seen, parts);
     for (at, cut) in seen.iter().enumerate() {
-        script_of(geometry, &seen, at, reliable, &mut script);
+        script_of(geometry, &seen, at, (&missed, travel), &mut script);
         if let Some(part) = cut.part {
             origins[cut.beam][cut.rise] = Origin::Part(part);
             if let Some(fall) = cut.fall.filter(|_| cut.length.is_some()) {
@@ -452,54 +450,46 @@ fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> 
 }
 
 /// How far it is from one beam to the other, the way the belt runs.
-fn distance(geometry: &Geometry, beam: usize, way: f64) -> Option<f64> {
+pub(super) fn distance(geometry: &Geometry, beam: usize, way: f64) -> Option<f64> {
     let [Some(a), Some(b)] = geometry.beams else { return None };
     Some(if beam == 0 { way * (b - a) } else { way * (a - b) })
 }
 
-/// Whether what passes the first beam reaches the second: as far as that still showed anything.
-fn is_reliable(seen: &[Seen], parts: usize) -> bool {
-    let until = [0, 1].map(|beam| {
-        let of_beam = seen.iter().filter(|cut| cut.beam == beam);
-        of_beam.map(|cut| if cut.to.is_finite() { cut.to } else { cut.from }).fold(f64::NEG_INFINITY, f64::max)
-    });
-    let mut beams = vec![0; parts];
-    let mut could = vec![false; parts];
-    for cut in seen.iter().filter(|cut| cut.again.is_none()) {
-        let part = cut.part.unwrap_or(0);
-        beams[part] += 1;
-        could[part] |= cut.from <= until[1 - cut.beam];
-    }
-    let both = beams.iter().filter(|count| **count == 2).count();
-    let all = could.iter().filter(|could| **could).count();
-    let enough = if seen.iter().any(|cut| cut.stays) { ENOUGH_BEFORE_IT_STAYED } else { ENOUGH };
-    both as f64 >= RELIABLE * all as f64 && both >= enough
-}
-
 /// What one cut is in the script: moved with the belt from the part's first edge, or played back.
-fn script_of(geometry: &Geometry, seen: &[Seen], at: usize, reliable: bool, script: &mut Script) {
+fn script_of(
+    geometry: &Geometry,
+    seen: &[Seen],
+    at: usize,
+    (missed, travel): (&Missed, &dyn Fn(f64) -> f64),
+    script: &mut Script,
+) {
     let cut = seen[at];
     // What comes again goes on with the cut that it came with first.
-    let Some(part) = cut.part.filter(|_| cut.again.is_none()) else { return };
+    let Some(part) = cut.part.filter(|_| cut.again.is_none() && !missed.is_of_no_part(&cut)) else { return };
     let first = seen[..at].iter().find(|other| other.part == cut.part).copied().unwrap_or(cut);
-    let ahead = if first.beam == cut.beam { 0.0 } else { (cut.start - first.start).abs() };
-    let ahead = match distance(geometry, first.beam, first.way) {
-        Some(between) if first.beam != cut.beam => between,
+    let before = cut.length.and_then(|_| passed_unseen(geometry, seen, &first, travel));
+    let (beam, from) = before.unwrap_or((first.beam, first.from));
+    let ahead = if beam == cut.beam { 0.0 } else { (cut.start - first.start).abs() };
+    let ahead = match distance(geometry, beam, first.way) {
+        Some(between) if beam != cut.beam => between,
         _ => ahead,
     };
     let taken = if cut.length.is_some() { None } else { Some(cut.to).filter(|to| to.is_finite()) };
     let length = cut.length.unwrap_or(f64::INFINITY);
-    let front = geometry.beams[first.beam].unwrap_or_default();
+    let front = geometry.beams[beam].unwrap_or_default();
     let is_known = known_length(geometry, seen, part).is_some();
-    let own = Cut { part, beam: cut.beam, from: first.from, ahead, front, way: first.way, length, is_known, taken };
+    let own = Cut { part, beam: cut.beam, from, ahead, front, way: first.way, length, is_known, taken };
     script.cuts.push(own);
+    if before.is_some() && first.beam == cut.beam {
+        script.cuts.push(Cut { beam, ahead: 0.0, ..own });
+    }
     if seen.iter().any(|other| other.again == Some(at)) {
         script.back.push(part);
     }
     // One that should have come to the other beam and did not is missed there.
     let is_alone = !seen.iter().any(|of| of.beam != cut.beam && of.part == cut.part);
     if let (true, true, Some(length), Some(between)) =
-        (is_alone, reliable, cut.length, distance(geometry, cut.beam, cut.way))
+        (is_alone, missed.are_due_at(1 - cut.beam), cut.length, distance(geometry, cut.beam, cut.way))
         && between > 0.0
     {
         let beam = 1 - cut.beam;
@@ -624,22 +614,6 @@ mod tests {
         assert_eq!(origins[1], [Origin::Part(1), Origin::Input]);
         let cut = script.cuts.iter().find(|cut| cut.part == 1).expect("its cut");
         assert!(cut.taken.is_some_and(|taken| (taken - 8.1).abs() < 0.02) && cut.ahead == 0.0);
-    }
-
-    /// The first part stays in barrier B, which the belt leaves behind; those after it never leave it.
-    #[test]
-    fn parts_are_missed_at_a_barrier_that_stays_cut_and_only_there() {
-        let mut stuck = Track::of_cuts(&[(3.81, 4.41)]);
-        stuck.edges.pop();
-        let a = Track::of_cuts(&[(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)]);
-        let (script, _) = assign(&Geometry::of_rig(), [Some(&a), Some(&stuck)], &|at| 0.5 * at);
-        let at_b: Vec<(usize, f64)> =
-            script.cuts.iter().filter(|cut| cut.beam == 1).map(|cut| (cut.part, cut.length)).collect();
-        assert_eq!(at_b, [(0, 0.3), (1, 0.3), (2, 0.3)]);
-        assert!(script.cuts.iter().all(|cut| cut.taken.is_none()), "{:?}", script.cuts);
-        // One that never came there may have been taken away.
-        let (script, _) = of_rig(&[(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)], &[]);
-        assert!(script.cuts.iter().all(|cut| cut.beam == 0));
     }
 
     #[test]

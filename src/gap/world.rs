@@ -521,23 +521,21 @@ mod tests {
     }
 
     /// A belt at 0.5 m/s that takes 0.5 s to stop, where friction gives parts 0.25 m/s². One that is in the beam from 1 s on goes on for 2 s and 0.5 m after
-    /// the belt was told to stop, the belt for 0.125 m; one that is put into the beam when that stands stays where it is.
+    /// the belt was told to stop, the belt for 0.125 m; one that is put into the beam when that stands stays where it is. Where the first has left the beam
+    /// meanwhile, and when that was is sought by halving, the others go as far.
     #[test]
     fn parts_slide_on_where_their_belt_stops() {
-        let cut = |part: usize, from: f64, is_known: bool| Cut {
+        let cut = |part: usize, from: f64, length: f64, is_known: bool| Cut {
             part,
             beam: 0,
             from,
             ahead: 0.0,
             front: 0.3,
             way: 1.0,
-            length: 5.0,
+            length,
             is_known,
             taken: None,
         };
-        let cuts = vec![cut(0, 1.0, false), cut(1, 2.6, true), cut(2, 2.6, false)];
-        let script = Script { cuts, put_front: Some(0.3), ..Script::default() };
-        let mut world = World::new(&Arc::new(script)).expect("something passes");
         let bench = crate::device::bench::Bench::new("kinetwin.StraightConveyor", &[("acceleration", "1")]);
         let slip = EffectSpec {
             place: EffectPlace::Process,
@@ -545,22 +543,33 @@ mod tests {
             component: None,
             parameters: [("acceleration".to_owned(), ParameterValue::Number(0.25))].into(),
         };
-        let mut device = effect::build(bench.kind, &bench.parameters, "Belt", &[slip], 1).expect("a belt");
-        let go = |world: &mut World, device: &mut Box<dyn Device>, from: f64, to: f64| {
-            world.advance_in_legs(device, from, to);
-            world.riders.iter().map(|rider| rider.gone).collect::<Vec<_>>()
-        };
-        world.begin(device.as_mut());
-        device.command(0, 0.5);
-        device.command(1, 1.0);
-        // It does not slip while the belt takes longer than friction for its speed.
-        go(&mut world, &mut device, -2.0, 1.0);
-        let started = go(&mut world, &mut device, 1.0, 2.0);
-        device.command(1, 0.0);
-        let gone = go(&mut world, &mut device, 2.0, 5.0);
-        assert!((started[0] - 0.5).abs() < 1e-9, "{started:?}");
-        // The last came at 2.6 s as one that slid with the first: 1.4 s at 0.35 m/s and falling.
-        assert!((gone[0] - 1.0).abs() < 1e-4 && gone[1] == 0.0 && (gone[2] - 0.245).abs() < 1e-4, "{gone:?}");
+        for length in [5.0, 0.6] {
+            let cuts = vec![cut(0, 1.0, length, false), cut(1, 2.6, 5.0, true), cut(2, 2.6, 5.0, false)];
+            let script = Script { cuts, put_front: Some(0.3), ..Script::default() };
+            let mut world = World::new(&Arc::new(script)).expect("something passes");
+            let mut device =
+                effect::build(bench.kind, &bench.parameters, "Belt", std::slice::from_ref(&slip), 1).expect("a belt");
+            world.begin(device.as_mut());
+            let mut go = |device: &mut Box<dyn Device>, from: f64, to: f64| {
+                world.advance_in_legs(device, from, to);
+                let gone = |part: usize| world.riders.iter().find(|rider| rider.part == part).map(|rider| rider.gone);
+                [gone(0), gone(1), gone(2)]
+            };
+            device.command(0, 0.5);
+            device.command(1, 1.0);
+            // It does not slip while the belt takes longer than friction for its speed.
+            go(&mut device, -2.0, 1.0);
+            let started = go(&mut device, 1.0, 2.0);
+            device.command(1, 0.0);
+            let [first, still, sliding] = go(&mut device, 2.0, 5.0);
+            assert!(started[0].is_some_and(|gone| (gone - 0.5).abs() < 1e-9), "{started:?}");
+            assert!(first.map_or(length < 1.0, |gone| (gone - 1.0).abs() < 1e-4), "{first:?}");
+            // The last came at 2.6 s as one that slid with the first: 1.4 s at 0.35 m/s and falling.
+            assert!(
+                still == Some(0.0) && sliding.is_some_and(|gone| (gone - 0.245).abs() < 1e-4),
+                "{length} {sliding:?}"
+            );
+        }
     }
 
     /// A belt at 0.5 m/s that changes its speed by 1 m/s² is told at 2 s to go back: a part that came at 1 s turns at 2.5 s after 0.625 m.

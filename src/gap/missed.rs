@@ -1,0 +1,173 @@
+//! What a barrier should have seen and did not: parts that come to it with their belt, and parts that must have passed it.
+//!
+//! Other hands may take a part away before it comes to a barrier, or put one behind it, and nobody recorded that. So a part is
+//! missed only where other things say that it was there.
+
+use super::parts::{Geometry, RELIABLE, Seen, distance};
+
+/// In how many of its parts both barriers must have been reached; where one then stayed cut, which no part does, in this many.
+const ENOUGH: usize = 3;
+const ENOUGH_BEFORE_IT_STAYED: usize = 1;
+
+/// At which barriers of a belt parts are missed.
+pub(super) struct Missed {
+    /// Whether what passes the first beam reaches the second.
+    is_reliable: bool,
+    /// The beam that saw none of the parts of the bay whose belt it is.
+    blind: Option<usize>,
+}
+
+impl Missed {
+    /// Of what the barriers of a belt saw, which were so many parts.
+    pub fn new(geometry: &Geometry, seen: &[Seen], parts: usize) -> Missed {
+        Missed { is_reliable: is_reliable(seen, parts), blind: blind(geometry, seen) }
+    }
+
+    /// Whether the other barrier's parts are due at a beam, and missed where they do not come.
+    pub fn are_due_at(&self, beam: usize) -> bool {
+        self.is_reliable || self.blind == Some(beam)
+    }
+
+    /// Whether a cut is none of a part: what sees no part stays cut.
+    pub fn is_of_no_part(&self, cut: &Seen) -> bool {
+        cut.stays && self.blind == Some(cut.beam)
+    }
+}
+
+/// Whether what passes the first beam reaches the second: as far as that still showed anything.
+fn is_reliable(seen: &[Seen], parts: usize) -> bool {
+    let until = [0, 1].map(|beam| {
+        let of_beam = seen.iter().filter(|cut| cut.beam == beam);
+        of_beam.map(|cut| if cut.to.is_finite() { cut.to } else { cut.from }).fold(f64::NEG_INFINITY, f64::max)
+    });
+    let mut beams = vec![0; parts];
+    let mut could = vec![false; parts];
+    for cut in seen.iter().filter(|cut| cut.again.is_none()) {
+        let part = cut.part.unwrap_or(0);
+        beams[part] += 1;
+        could[part] |= cut.from <= until[1 - cut.beam];
+    }
+    let both = beams.iter().filter(|count| **count == 2).count();
+    let all = could.iter().filter(|could| **could).count();
+    let enough = if seen.iter().any(|cut| cut.stays) { ENOUGH_BEFORE_IT_STAYED } else { ENOUGH };
+    both as f64 >= RELIABLE * all as f64 && both >= enough
+}
+
+/// The second beam of a belt that a bay alone feeds, where no plate reaches over it and it saw none of several parts that the first did: nothing,
+/// or what stays cut though the belt goes on.
+fn blind(geometry: &Geometry, seen: &[Seen]) -> Option<usize> {
+    let (first, _) = geometry.fed?;
+    let second = 1 - first;
+    let came = seen.iter().filter(|cut| cut.beam == first && cut.way > 0.0 && cut.again.is_none());
+    let is_none = |cut: &Seen| {
+        let before = seen.iter().any(|of| of.beam == first && of.part == cut.part);
+        cut.stays && !before
+    };
+    let saw_none = seen.iter().filter(|cut| cut.beam == second).all(is_none);
+    (saw_none && geometry.hands[second].is_empty() && came.count() >= ENOUGH).then_some(second)
+}
+
+/// The beam that the part of a cut, the first that was seen of it, must have passed unseen, and when, s: that stayed cut then, the belt leads from it
+/// to where the part was seen, and no plate reaches over either. `travel` gives the belt's way at an instant, m.
+pub(super) fn passed_unseen(
+    geometry: &Geometry,
+    seen: &[Seen],
+    first: &Seen,
+    travel: &dyn Fn(f64) -> f64,
+) -> Option<(usize, f64)> {
+    const STEP_S: f64 = 0.02;
+    const HALVINGS: u32 = 16;
+    let beam = 1 - first.beam;
+    let between = distance(geometry, beam, first.way).filter(|between| *between > 0.0)?;
+    let stay =
+        seen.iter().find(|cut| cut.beam == beam && cut.stays && cut.way == first.way && cut.from < first.from)?;
+    if geometry.hands.iter().any(|spans| !spans.is_empty()) {
+        return None;
+    }
+    // How far it had come from the beam.
+    let gone = |at: f64| between - first.way * (first.start - travel(at));
+    let mut after = first.from;
+    while gone(after - STEP_S) > 0.0 {
+        after -= STEP_S;
+        if after <= stay.from {
+            return None;
+        }
+    }
+    let mut before = after - STEP_S;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (before + after);
+        if gone(middle) > 0.0 { after = middle } else { before = middle }
+    }
+    (after > stay.from).then_some((beam, after))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::parts::{Origin, assign};
+    use crate::gap::track::Track;
+    use crate::gap::world::Script;
+
+    const COMING: [(f64, f64); 3] = [(1.01, 1.61), (7.01, 7.61), (13.01, 13.61)];
+
+    /// What stays cut from the first of these on.
+    fn stuck(cuts: &[(f64, f64)]) -> Track {
+        let mut track = Track::of_cuts(cuts);
+        track.edges.pop();
+        track
+    }
+
+    /// A belt of the rig's that always runs at 0.5 m/s.
+    fn script(geometry: &Geometry, a: &Track, b: &Track) -> (Script, [Vec<Origin>; 2]) {
+        assign(geometry, [Some(a), Some(b)], &|at| 0.5 * at)
+    }
+
+    /// Which parts are to be seen by a beam, how long they are, and how far before it when.
+    fn at(script: &Script, beam: usize) -> Vec<(usize, f64)> {
+        script.cuts.iter().filter(|cut| cut.beam == beam).map(|cut| (cut.part, cut.length)).collect()
+    }
+
+    /// The first part stays in barrier B, which the belt leaves behind; those after it never leave it.
+    #[test]
+    fn parts_are_missed_at_a_barrier_that_stays_cut_and_only_there() {
+        let (a, b) = (Track::of_cuts(&COMING), stuck(&[(3.81, 4.41)]));
+        let (found, _) = script(&Geometry::of_rig(), &a, &b);
+        assert_eq!(at(&found, 1), [(0, 0.3), (1, 0.3), (2, 0.3)]);
+        assert!(found.cuts.iter().all(|cut| cut.taken.is_none()), "{:?}", found.cuts);
+        // One that never came there may have been taken away.
+        let (found, _) = script(&Geometry::of_rig(), &a, &Track::of_cuts(&[]));
+        assert!(found.cuts.iter().all(|cut| cut.beam == 0));
+    }
+
+    /// Parts that a bay has put come to barrier B, over which no plate reaches; it sees nothing, or is cut for good before the first comes.
+    #[test]
+    fn a_bays_parts_are_missed_at_a_barrier_that_sees_none() {
+        let fed = Geometry { fed: Some((0, 0.3)), ..Geometry::of_rig() };
+        let a = Track::of_cuts(&COMING);
+        for b in [Track::of_cuts(&[]), stuck(&[(2.51, 3.0)])] {
+            let (found, _) = script(&fed, &a, &b);
+            assert_eq!(at(&found, 1).iter().map(|(_, length)| *length).collect::<Vec<_>>(), [0.3; 3]);
+            assert!(found.cuts.iter().all(|cut| cut.taken.is_none()), "{:?}", found.cuts);
+        }
+        let reached = Geometry { hands: [vec![], vec![(2.0, 3.0)]], ..fed.clone() };
+        assert!(at(&script(&reached, &a, &Track::of_cuts(&[])).0, 1).is_empty());
+        // Of two it is not said.
+        assert!(at(&script(&fed, &Track::of_cuts(&COMING[..2]), &Track::of_cuts(&[])).0, 1).is_empty());
+    }
+
+    /// Barrier A stays cut from the second part on; that and the third come to B, 2.8 s later, and the third has been where A is cut still.
+    #[test]
+    fn parts_are_missed_at_a_barrier_that_they_must_have_passed() {
+        let (a, b) = (stuck(&COMING[..2]), Track::of_cuts(&COMING.map(|(from, to)| (from + 2.8, to + 2.8))));
+        let (found, origins) = script(&Geometry::of_rig(), &a, &b);
+        assert_eq!(at(&found, 0), [(0, 0.3), (1, 0.3), (2, 0.3)]);
+        assert_eq!(at(&found, 1), [(0, 0.3), (1, 0.3), (2, 0.3)]);
+        let third: Vec<_> = found.cuts.iter().filter(|cut| cut.part == 2).collect();
+        let is_from_a = |from: f64, front: f64| (from - 13.01).abs() < 0.02 && front == 0.3;
+        assert!(third.iter().all(|cut| is_from_a(cut.from, cut.front)), "{third:?}");
+        assert!(third.iter().all(|cut| (cut.ahead - 1.4 * cut.beam as f64).abs() < 1e-9), "{third:?}");
+        assert_eq!(origins[1][4..], [Origin::Part(2); 2]);
+        let reached = Geometry { hands: [vec![], vec![(2.0, 3.0)]], ..Geometry::of_rig() };
+        assert_eq!(at(&script(&reached, &a, &b).0, 0).len(), 2);
+    }
+}
