@@ -22,6 +22,7 @@
 
 mod age;
 mod alone;
+mod apart;
 mod apply;
 mod bay;
 mod beginning;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::alone::{self, Alone, Watch};
+use super::apart::apart;
 use super::bay::Bay;
 use super::beginning;
 use super::cost::residual;
@@ -667,27 +668,4 @@ fn settles(plant: &Plant, commanded: &[(usize, RegisterId)], recording: &Recordi
         is_level && recording.values(*register).first().is_some_and(|told| told.at <= first && told.value != 0.0)
     };
     recording.resumes || recording.step().is_none() && commanded.iter().any(is_under_way)
-}
-
-fn apart(run: &Run, signal: usize, pair: (&Predicted, &Predicted), residuals: &mut Vec<f64>) {
-    let Some(track) = &run.tracks[signal] else { return };
-    match pair {
-        (Predicted::Level(one), Predicted::Level(other)) => {
-            let (floor, weighed) = (run.floors[signal], run.weighed(signal));
-            let sigma = floor.rms(0.0).max(floor.sigma(0.0));
-            let pairs = one.iter().zip(other).enumerate();
-            residuals.extend(pairs.map(|(k, (a, b))| weighed.weight(k).sqrt() * (a - b) / sigma));
-        }
-        (Predicted::Edges { edges: one, .. }, Predicted::Edges { edges: other, .. }) => {
-            let sigma = run.edge_sigmas[signal].hypot(track.grid.cycle / 12.0_f64.sqrt());
-            let mut rest = other.iter().peekable();
-            for edge in one {
-                // Whatever only one of them has is as far off as an edge can be.
-                let near = rest.next_if(|other| other.to == edge.to);
-                residuals.push(near.map_or(4.0, |near| (edge.at - near.at) / sigma));
-            }
-            residuals.extend(rest.map(|_| 4.0));
-        }
-        _ => {}
-    }
 }

@@ -68,6 +68,28 @@ impl Trial {
         })
     }
 
+    /// The same with the last candidate of the set at `place` of it.
+    pub fn with_last_at(mut self, place: usize) -> Trial {
+        let own = self.parameters();
+        let Some(last) = self.set.pop() else { return self };
+        let before: usize = self.set[..place].iter().map(|candidate| candidate.free.len()).sum();
+        self.at[before..own].rotate_right(last.free.len());
+        self.ranges[before..own].rotate_right(last.free.len());
+        self.set.insert(place, last);
+        self
+    }
+
+    /// The same with the candidate at `place` of the set as its last.
+    pub fn with_last(mut self, place: usize) -> Trial {
+        let own = self.parameters();
+        let before: usize = self.set[..place].iter().map(|candidate| candidate.free.len()).sum();
+        let candidate = self.set.remove(place);
+        self.at[before..own].rotate_left(candidate.free.len());
+        self.ranges[before..own].rotate_left(candidate.free.len());
+        self.set.push(candidate);
+        self
+    }
+
     /// The effects that it adds.
     pub fn specs(&self) -> Vec<EffectSpec> {
         self.values().map(|(candidate, at)| candidate.spec(at)).collect()
@@ -413,6 +435,27 @@ mod tests {
     use super::*;
     use crate::gap::cause::axis_tests::{report_as, rubbing_axis};
     use crate::gap::cause::library::candidates;
+
+    /// A candidate goes from one place of a set to another with its own numbers.
+    #[test]
+    fn a_candidate_takes_its_numbers_along() {
+        let (subject, nominal, rubs) = rubbing_axis();
+        let one = |id: &str| candidates(&subject, &nominal, &subject.score(&nominal), &|of| of == id).swap_remove(0);
+        let set = [rubs[0].clone(), one("stribeck-friction"), one("constant-force")];
+        let stop = || false;
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let trial = bench.trial(&set, vec![1.0, 2.0, 0.3, 4.0]).expect("a trial");
+        let ids = |trial: &Trial| trial.set.iter().map(|candidate| candidate.effect.id).collect::<Vec<_>>();
+        let first = trial.clone().with_last_at(0);
+        assert_eq!(ids(&first), ["constant-force", "coulomb-friction", "stribeck-friction"]);
+        assert_eq!(first.at, [4.0, 1.0, 2.0, 0.3]);
+        assert_eq!(first.ranges, [trial.ranges[3], trial.ranges[0], trial.ranges[1], trial.ranges[2]]);
+        let last = trial.clone().with_last(1);
+        assert_eq!(ids(&last), ["coulomb-friction", "constant-force", "stribeck-friction"]);
+        assert_eq!(last.at, [1.0, 4.0, 2.0, 0.3]);
+        let back = last.with_last_at(1);
+        assert_eq!((ids(&back), back.at), (ids(&trial), trial.at));
+    }
 
     /// An axis whose task takes its commands up every 2 ms, and that gets them 12.3 ms late: 11.6 ms late it would take some up one cycle too soon, and
     /// 10.3 ms late all.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::bench::{BLOCK_S, Bench, Trial};
 use super::candidate::Candidate;
 use super::ladder::{DRAWS, Ladder, Tell, anew, handicap};
+use super::remainder::misfit;
 use super::rhythm::PART;
 use super::rung::rung;
 use super::unseen::unseen;
@@ -90,8 +91,13 @@ fn answer(
     others.retain(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)));
     let inflation = best.inflation();
     let near = near(bench, best, others);
-    let mut alternatives: Vec<Alternative> =
-        near.into_par_iter().filter_map(|trial| alternative(bench, (best, place), trial)).collect();
+    let most = most_left(bench, ladder);
+    let alternative = |trial: Trial| {
+        let found = alternative(bench, (best, place), trial)?;
+        let is_same = found.is_same && left(bench, &found.trial).is_none_or(|left| left <= most);
+        Some(Alternative { is_same, ..found })
+    };
+    let mut alternatives: Vec<Alternative> = near.into_par_iter().filter_map(alternative).collect();
     alternatives.sort_by(|a, b| b.is_same.cmp(&a.is_same).then(a.trial.cost.total_cmp(&b.trial.cost)));
     // An effect that holds the answer as a special case explains no less: it is no rival. A nominal parameter that gives the
     // same motion is another name for it.
@@ -103,6 +109,20 @@ fn answer(
         !holds_it && !is_alias && !is_part
     });
     weigh(bench, ladder, Answer { place, weight: 0.0, alternatives })
+}
+
+/// How much more of the gap than the answer what nobody can tell from it leaves at most: beside a great remainder, which weighs down all that was recorded,
+/// speeds in other units and a speed that goes with the load, which leaves a sixteenth, cost about the same.
+const LEAVES_MORE: f64 = 0.1;
+
+/// What an alternative may leave of the gap's squares.
+fn most_left(bench: &Bench<'_>, ladder: &Ladder) -> f64 {
+    let gap = bench.predict(&[], &ladder.bare.at).map(|bare| misfit(&bench.subject.score(&bare)));
+    left(bench, &ladder.best).zip(gap).map_or(f64::INFINITY, |(left, gap)| left + LEAVES_MORE * gap)
+}
+
+fn left(bench: &Bench<'_>, trial: &Trial) -> Option<f64> {
+    Some(misfit(&bench.subject.score(&*bench.predict(&trial.set, &trial.at)?)))
 }
 
 /// Those of `others` that cost little more than `best`. Where that is of several effects, so do some whose other effects are fitted anew: what is told
@@ -203,7 +223,7 @@ fn weigh(bench: &Bench<'_>, ladder: &Ladder, mut answer: Answer) -> Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::cause::axis_tests::rubbing_axis;
+    use crate::gap::cause::axis_tests::{ending_at, report_as, rubbing_axis};
     use crate::gap::cause::library::candidates;
     use crate::gap::cause::nuisance::Nuisance;
 
@@ -231,5 +251,20 @@ mod tests {
         let other = bench.trial(&rubs, vec![90.0, 20.0]).expect("a trial");
         let found = alternative(&bench, (&best, 0), other).expect("an alternative");
         assert!(found.is_same && found.distance < 1.0, "{}", found.distance);
+    }
+
+    /// What explains next to nothing of a gap that friction explains is not the same as friction, however little all that was recorded weighs.
+    #[test]
+    fn what_leaves_a_gap_is_told_from_what_explains_it() {
+        let (mut subject, nominal, rubs) = rubbing_axis();
+        let stop = || false;
+        let recorded = Bench::new(&subject, Vec::new(), &stop).predict(&rubs, &[30.0]).expect("a prediction");
+        report_as(&mut subject, &recorded);
+        let bench = Bench::new(&subject, Vec::new(), &stop);
+        let trial = |force: f64| bench.trial(&rubs, vec![force]).expect("a trial");
+        let ladder = ending_at(&bench, &nominal, trial(30.0));
+        let most = most_left(&bench, &ladder);
+        let leaves = [30.0, 25.0, 10.0].map(|force| left(&bench, &trial(force)).expect("something") <= most);
+        assert_eq!(leaves, [true, true, false], "{most}");
     }
 }

@@ -34,5 +34,7 @@ pub use class::{Alternative, Answer, answers, is_part, plainness};
 pub use dropped::lets_go_at_once;
 pub use intervals::{Bounds, intervals, of_each};
 pub use ladder::{Ladder, MOST_INFLATED, Progress, Standing, Tell, anew, climb, floor};
+#[cfg(test)]
+pub use library::candidates;
 pub use nuisance::{Nuisance, nuisances};
-pub use remainder::{Remainder, misfit, remainder};
+pub use remainder::{Remainder, is_laws_own, misfit, remainder};

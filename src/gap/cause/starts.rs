@@ -38,6 +38,8 @@ const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0, 896.0, 1792
 const STIFFEST: f64 = 3000.0;
 /// How many times as long as a flag stays it must come later never to come.
 const NEVER_COMES: f64 = 1.05;
+/// How rarely a flag is looked at that is never seen, s.
+const RARELY_S: [f64; 6] = [4.0, 5.0, 6.0, 7.0, 8.5, 10.0];
 /// How long vacuum holds where the search for a leak begins, s.
 const HOLDS_S: &[f64] = &[0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3, 1.7, 2.2, 3.0, 5.0, 10.0];
 /// The longest time that is searched for, s.
@@ -234,13 +236,20 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         let stay = match candidate.effect.id {
             "on-delay" => longest_stay(clues, true),
             "off-delay" => longest_stay(clues, false),
+            // A flag has to stand as long as that.
+            "input-filter" if candidate.place == EffectPlace::ReportLink => longest_stay(clues, true),
             _ => None,
         };
         let never = stay.map(|stay| (NEVER_COMES * stay).min(greatest));
-        let longest = never.map_or(longest, |never| longest.max(2.0 * never).min(greatest));
+        let mut longest = never.map_or(longest, |never| longest.max(2.0 * never).min(greatest));
         starts.extend(never);
         if candidate.effect.id == "stale-hold" && candidate.place == EffectPlace::ReportLink {
             starts.extend(refresh::period(clues, longest));
+            // A flag that is never told may be looked at only while it is off.
+            if longest_stay(clues, true).is_some() {
+                longest = greatest;
+                starts.extend(RARELY_S.iter().filter(|period| **period <= greatest));
+            }
         }
         // A replay takes as many steps as there are windows.
         let least = if candidate.effect.id == "stale-hold" { least.max(SHORTEST_WINDOW_S) } else { least };
@@ -292,6 +301,16 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         ("direction-asymmetry", _) => {
             (range(least, greatest, 0.02), vec![5e-4, -5e-4, 0.02, -0.02, 0.07, -0.07, 0.13, -0.13, 0.2, -0.2])
         }
+        // Of a drive that is asked for speeds half of the band is one: that below it is not done, and of those above it, if it shifts, so much is missing.
+        ("dead-band", "width") if !speeds_asked(clues).is_empty() => {
+            const SHARES: [f64; 13] = [3e-4, 1e-3, 3e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95];
+            const SLOWEST: usize = 6;
+            let asked = speeds_asked(clues);
+            let fastest = 2.0 * asked[asked.len() - 1];
+            let slowest = asked.iter().take(SLOWEST).map(|speed| 2.0 * 1.02 * speed);
+            let starts = times(&SHARES, fastest).into_iter().chain(slowest).collect();
+            (range(least, greatest.min(1.1 * fastest), 0.01 * fastest), starts)
+        }
         // A loop about a band is off by its width, whichever that is, and moves on or off at instants that leap with it.
         ("dead-band", "width") => {
             let shares = [3e-4, 1e-3, 3e-3, 6e-3, 0.01, 0.015, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4];
@@ -314,6 +333,22 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
             (range(least.max(-10.0 * unit), greatest.min(10.0 * unit), 0.01 * unit), times(shares, unit))
         }
     }
+}
+
+/// Which speeds a drive is asked for that is asked for nothing else, without their signs, the slowest first.
+fn speeds_asked(clues: &Clues<'_>) -> Vec<f64> {
+    let commands = || clues.subject.runs.iter().flat_map(|run| &run.commands);
+    let asks = |port: usize, wanted: [Quantity; 2]| {
+        clues.subject.kind.ports[port].quantities.iter().any(|quantity| wanted.contains(quantity))
+    };
+    if commands().any(|(port, _)| asks(*port, [Quantity::Length, Quantity::Angle])) {
+        return Vec::new();
+    }
+    let speeds = commands().filter(|(port, _)| asks(*port, [Quantity::Velocity, Quantity::AngularVelocity]));
+    let mut speeds: Vec<f64> = speeds.map(|(_, told)| told.value.abs()).filter(|speed| *speed > 0.0).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
 }
 
 /// How large the signal of the component is.
@@ -405,7 +440,8 @@ fn late(clues: &Clues<'_>) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::gap::Overrides;
-    use crate::gap::recorded_tests::{BLIND_SWITCH, SLOW_PUSHER, study};
+    use crate::gap::cause::library::candidates;
+    use crate::gap::recorded_tests::{BLIND_SWITCH, LAGGING_ROBOT, SLIPPING_PARTS, SLOW_PUSHER, study};
 
     /// A switch that is told late enough never comes, and one that is told for long enough never goes; this one went.
     #[test]
@@ -423,6 +459,40 @@ mod tests {
         };
         assert!(longest("limitRetracted", true).is_some_and(|stay| (0.1..3.0).contains(&stay)));
         assert_eq!(longest("limitRetracted", false), None);
+        // It may as well be filtered for longer than it stands.
+        let stay = longest("limitRetracted", true).expect("a stay");
+        let begins_at = |id: &str, place: EffectPlace, time: f64| {
+            let all = candidates(pusher, &nominal, &score, &|known| known == id);
+            let is_meant = |of: &&Candidate| of.component.as_deref() == Some("limitRetracted") && of.place == place;
+            let found = all.iter().find(is_meant).expect("a candidate");
+            found.starts.iter().any(|start| (start[0] - time).abs() < 1e-9)
+        };
+        assert!(begins_at("on-delay", EffectPlace::Sensor, NEVER_COMES * stay));
+        assert!(begins_at("input-filter", EffectPlace::ReportLink, NEVER_COMES * stay));
+        // Or be looked at too rarely.
+        assert!(begins_at("stale-hold", EffectPlace::ReportLink, 10.0));
+    }
+
+    /// A belt is asked for speeds: its dead band is tried just above twice the slowest of them, and never far above twice the fastest. A robot is asked for
+    /// ways.
+    #[test]
+    fn a_dead_band_of_a_belt_is_one_of_the_speeds_it_is_asked_for() {
+        let starts = |recording: &str, device: &str| {
+            let study = study(recording);
+            let subject = study.subject(device).expect("it moves");
+            let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+            let score = subject.score(&nominal);
+            let scales = Scales::of(subject, &nominal, None);
+            let asked = speeds_asked(&Clues { subject, nominal: &nominal, score: &score, scales, component: None });
+            let found = candidates(subject, &nominal, &score, &|id| id == "dead-band").swap_remove(0);
+            (asked, found.free[0].range.greatest, found.starts.iter().map(|start| start[0]).collect::<Vec<_>>())
+        };
+        let (asked, greatest, widths) = starts(SLIPPING_PARTS, "Belt");
+        let (slowest, fastest) = (asked[0], asked[asked.len() - 1]);
+        assert!(0.0 < slowest && slowest < fastest && fastest < 1.0, "{asked:?}");
+        assert!(widths.iter().any(|width| (width / slowest - 2.04).abs() < 1e-9), "{widths:?}");
+        assert!((greatest / fastest - 2.2).abs() < 1e-9 && widths.iter().all(|width| *width < greatest));
+        assert!(starts(LAGGING_ROBOT, "Robot").0.is_empty());
     }
 
     /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.

@@ -93,9 +93,14 @@ fn at_rest(values: &[f64], predicted: &[f64], still: f64, only_long: bool) -> Op
     const LONG: usize = 24;
     const ENOUGH: usize = 40;
     const QUIETEST: f64 = 0.1;
-    let noise = |differences: &[f64]| 1.4826 * quantile(differences, 0.5) / std::f64::consts::SQRT_2;
+    // What drifts differs from one sample to the next by what it drifts.
+    let noise = |differences: &[f64]| {
+        let drifts = quantile(differences, 0.5);
+        let off: Vec<f64> = differences.iter().map(|difference| (difference - drifts).abs()).collect();
+        1.4826 * quantile(&off, 0.5) / std::f64::consts::SQRT_2
+    };
     let rests: Vec<bool> = predicted.windows(2).map(|law| (law[1] - law[0]).abs() < still).collect();
-    let differences: Vec<f64> = values.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
+    let differences: Vec<f64> = values.windows(2).map(|two| two[1] - two[0]).collect();
     let (mut long, mut all, mut first) = (Vec::new(), Vec::new(), 0);
     for rest in rests.chunk_by(|a, b| a == b) {
         let here = &differences[first..first + rest.len()];
@@ -147,6 +152,18 @@ mod tests {
         let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + (k % 2) as f64).collect();
         assert!(at_rest(&values, &predicted, 0.1, false).is_some());
         assert_eq!(at_rest(&values, &predicted, 0.1, true), None);
+    }
+
+    /// What drifts by one unit from each sample to the next scatters by nothing, and by what it scatters beside that.
+    #[test]
+    fn what_drifts_is_no_noise() {
+        let predicted = law();
+        let drifts = |k: usize| k as f64 + (k % 2) as f64;
+        let values =
+            |of: &dyn Fn(usize) -> f64| predicted.iter().enumerate().map(|(k, law)| law + of(k)).collect::<Vec<_>>();
+        assert_eq!(at_rest(&values(&|k| k as f64), &predicted, 0.1, false), Some(0.0));
+        let noise = at_rest(&values(&drifts), &predicted, 0.1, false).expect("enough rests");
+        assert!((noise - 1.4826 / std::f64::consts::SQRT_2).abs() < 1e-12, "{noise}");
     }
 
     /// Of what swings when it comes to rest, 15 samples a turn, little is left in the later half.

@@ -6,7 +6,7 @@ use super::Options;
 use crate::gap::age::older;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, MOST_INFLATED, Nuisance, Remainder, Standing, Trial,
-    anew, answers, climb, intervals, is_part, lets_go_at_once, misfit, of_each, plainness, remainder,
+    anew, answers, climb, intervals, is_laws_own, is_part, lets_go_at_once, misfit, of_each, plainness, remainder,
 };
 use crate::gap::chance::{self, Chance};
 use crate::gap::fit::Effort;
@@ -150,12 +150,17 @@ fn conclude(
     options: &Options<'_>,
 ) -> Option<Finding> {
     let gap = subject.score(&bare.prediction);
+    // What is left beside what was drawn may be no more than its law is off by.
+    let is_drawn_by_all =
+        chance.as_ref().is_some_and(|chance| is_laws_own(&chance.subject, &chance.bare.prediction, &gap));
+    let nothing = |_: &str| false;
+    let is_asked: &(dyn Fn(&str) -> bool + Sync) = if is_drawn_by_all { &nothing } else { options.is_asked };
     let (subject, bare) = chance.as_ref().map_or((subject, bare), |chance| (&chance.subject, &chance.bare));
     let bench = Bench::new(subject, bare.nuisances.clone(), options.is_stopped);
     let tick = study.ticks.iter().copied().fold(0.0, f64::max);
-    let mut ladder = climb(&bench, (&bare.at, tick), options.is_asked, options.tell)?;
+    let mut ladder = climb(&bench, (&bare.at, tick), is_asked, options.tell)?;
     if let Some(at) = fitted_better(&bench, &ladder) {
-        ladder = climb(&bench, (&at, tick), options.is_asked, options.tell)?;
+        ladder = climb(&bench, (&at, tick), is_asked, options.tell)?;
     }
     let prediction = bench.predict(&[], &ladder.bare.at)?;
     let bare = subject.score(&prediction);
@@ -174,7 +179,7 @@ fn conclude(
     let has_gap =
         beyond_chance > FAR_BEYOND * THRESHOLD || (beyond_chance > THRESHOLD && is_significant(&finding.ladder, &bare));
     if finding.ladder.best.set.is_empty() {
-        if has_gap {
+        if has_gap && !is_drawn_by_all {
             finding.remainder = remainder(&bench, &finding.ladder)?;
             let is_too_short = finding.ladder.too_few_blocks.is_some();
             finding.conclusion = match finding.chance {
@@ -192,7 +197,7 @@ fn conclude(
     let weighing = finding.ladder.subject.clone();
     let weighed = bench.with(&weighing);
     finding.answers = answers(&weighed, &finding.ladder, options.is_asked, options.tell);
-    name_the_plainest(&mut finding);
+    name_the_plainest(&weighed, &mut finding);
     name_what_lets_go_at_once(&weighed, &mut finding);
     finding.bounds = intervals(&weighed, &finding.ladder.best, finding.ladder.ends.as_deref(), tick);
     finding.conclusion = match () {
@@ -253,8 +258,9 @@ fn name_what_lets_go_at_once(bench: &Bench<'_>, finding: &mut Finding) {
 }
 
 /// Of the effects that give the same motion one without any number is named, such as metres that are told as millimetres: that a number
-/// could be what does the same is no chance. Else it is the plainest; a nominal parameter that gives it too is another name for it.
-fn name_the_plainest(finding: &mut Finding) {
+/// could be what does the same is no chance. Else it is the plainest; a nominal parameter that gives it too is another name for it. Beside others
+/// it is fitted anew with them.
+fn name_the_plainest(bench: &Bench<'_>, finding: &mut Finding) {
     let rank = |candidate: &Candidate| (candidate.numbers() > 0, plainness(candidate));
     for answer in &mut finding.answers {
         let best = &mut finding.ladder.best;
@@ -264,19 +270,21 @@ fn name_the_plainest(finding: &mut Finding) {
         let Some(at) = plainest.filter(|(_, other)| rank(other.candidate()) < named).map(|(at, _)| at) else {
             continue;
         };
-        // The set of an alternative has the candidate last; only of a set of one its place is the same.
+        // The candidate of an alternative is the last of its set.
+        let plainest = answer.alternatives[at].trial.clone().with_last_at(answer.place);
+        answer.alternatives[at].trial = std::mem::replace(best, plainest).with_last(answer.place);
         if best.set.len() > 1 {
-            continue;
+            let anew = bench.fit(&best.set, std::slice::from_ref(&best.at), anew(best.at.len()));
+            *best = anew.filter(|anew| anew.cost < best.cost).unwrap_or_else(|| best.clone());
         }
-        let trial = std::mem::replace(&mut answer.alternatives[at].trial, best.clone());
-        *best = trial;
         finding.ladder.ends = None;
-        if !best.set[0].is_parameter_error() {
-            let is_certain = best.set[0].numbers() == 0;
+        let named = &best.set[answer.place];
+        if !named.is_parameter_error() {
+            let is_certain = named.numbers() == 0;
             let holds_it = |other: &Alternative| is_certain && other.candidate().numbers() > 0;
             let is_alias = |other: &Alternative| {
                 let candidate = other.candidate();
-                let is_other_name = candidate.is_parameter_error() || is_part(candidate, &best.set[0]);
+                let is_other_name = candidate.is_parameter_error() || is_part(candidate, named);
                 other.is_same && (is_other_name || holds_it(other))
             };
             let aliases: f64 =
@@ -293,7 +301,7 @@ mod tests {
 
     use super::*;
     use crate::effect::EFFECTS;
-    use crate::gap::cause::Free;
+    use crate::gap::cause::{Free, candidates};
     use crate::gap::fit::Range;
     use crate::gap::recorded_tests::{LAGGING_ROBOT, LATE_GRIPPER, LATE_PUSHER, RUBBING_AXIS, SLIPPING_PARTS, study};
 
@@ -399,6 +407,45 @@ mod tests {
         assert_eq!(beside("dead-time", link, 2.0 * MOST_AGE_S).seeming_age(&study), None);
         study.tasks = vec![Task { age_s: 1e-4, ..Task::default() }];
         assert_eq!(beside("dead-time", link, 2.2e-4).seeming_age(&study), None);
+    }
+
+    /// An axis that rubs and cannot push as hard as it declares, whose limit was found as another nominal one: the effect that does the same is named, at its
+    /// place beside friction.
+    #[test]
+    fn of_two_effects_each_has_its_plainest_name() {
+        let study = study(RUBBING_AXIS);
+        let place = study.subjects.iter().position(|subject| subject.name == "Axis").expect("it moves");
+        let (subject, bare) = (&study.subjects[place], &study.bare[place]);
+        let is_asked = |id: &str| id == "coulomb-friction";
+        let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+        let mut found = conclude(place, (subject, bare), None, &study, &options).expect("a finding");
+        let stop = || false;
+        let bench = Bench::new(subject, bare.nuisances.clone(), &stop);
+        let one = |id: &str, of: &str| {
+            let all = candidates(subject, &bare.prediction, &subject.score(&bare.prediction), &|known| known == id);
+            all.into_iter().find(|found| found.name().contains(of)).expect("a candidate")
+        };
+        let best = &mut found.ladder.best;
+        let (friction, force) = (best.set[0].clone(), best.at[0]);
+        let of = |set: Vec<Candidate>, own: [f64; 2]| {
+            let at = [own.to_vec(), bench.carried(&set, &best.overrides)].concat();
+            bench.trial(&set, at).expect("a trial")
+        };
+        let limit = 300.0;
+        let (wrong, limited) = (one("parameter-error", "forceLimit"), one("force-limit", ""));
+        let other = of(vec![friction.clone(), limited], [force, limit]);
+        *best = of(vec![wrong, friction], [limit, force]);
+        let answer = |place: usize, alternatives: Vec<Alternative>| Answer { place, weight: 0.5, alternatives };
+        let same = Alternative { trial: other, distance: 0.0, is_same: true, weight: 0.5 };
+        found.answers = vec![answer(0, vec![same]), answer(1, Vec::new())];
+        name_the_plainest(&bench, &mut found);
+        let named: Vec<&str> = found.ladder.best.set.iter().map(|candidate| candidate.effect.id).collect();
+        assert_eq!(named, ["force-limit", "coulomb-friction"]);
+        // Fitted anew to what was recorded, in which no limit shows, each has its own number still.
+        let forces = &found.ladder.best.at;
+        assert!(forces[0] > limit && forces[1] < 0.1 * limit, "{forces:?} {force}");
+        // A nominal parameter is but another name.
+        assert!(found.answers[0].alternatives.is_empty() && (found.answers[0].weight - 1.0).abs() < 1e-9);
     }
 
     /// By itself an effect was worth having; of two, one whose interval holds 0 newtons, or a gain of 1, may be none.
