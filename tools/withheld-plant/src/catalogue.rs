@@ -161,6 +161,11 @@ const PARAMETERS: &[Spot] = &[
     ("Motor", "acceleration", 20.0),
 ];
 
+/// Whether no file of the library describes an effect.
+pub fn is_outside(effect: &str) -> bool {
+    effect.starts_with("x-")
+}
+
 impl Entry {
     /// Whether its strength changes anything: a signal is inverted, or it is not.
     pub fn has_strength(&self) -> bool {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::catalogue::{ENTRIES, Entry, Spot};
+use crate::catalogue::{self, ENTRIES, Entry, Spot};
 use crate::chance::Dice;
 use crate::magnitude::Magnitude;
 use crate::site::{Site, Sites};
@@ -124,7 +124,7 @@ pub fn plans(sizes: Sizes, sites: Sites, seed: u64) -> Vec<Plan> {
 
 /// So many cases of one effect, clear and gross in turn, at one spot after the other; `None` where the catalogue has no such effect.
 pub fn of_effect(effect: &str, cases: usize, sites: Sites, seed: u64) -> Option<Vec<Plan>> {
-    let (mut dice, is_outside) = (Dice::new(seed, 1), effect.starts_with("x-"));
+    let (mut dice, is_outside) = (Dice::new(seed, 1), catalogue::is_outside(effect));
     let mut deck = Deck::new(is_outside);
     ENTRIES.iter().find(|entry| entry.effect == effect)?;
     let plan = |k: usize| {
@@ -153,7 +153,8 @@ impl Deck {
     pub fn next(&mut self, dice: &mut Dice, fits: impl Fn(&Entry, Spot) -> bool) -> (usize, Spot) {
         let is_fit = |(entry, spot): &(usize, Spot)| fits(&ENTRIES[*entry], *spot);
         if !self.left.iter().any(is_fit) {
-            let all = ENTRIES.iter().enumerate().filter(|(_, entry)| entry.effect.starts_with("x-") == self.outside);
+            let all =
+                ENTRIES.iter().enumerate().filter(|(_, entry)| catalogue::is_outside(entry.effect) == self.outside);
             let mut all: Vec<_> = all.flat_map(|(at, entry)| entry.spots.iter().map(move |spot| (at, *spot))).collect();
             dice.shuffle(&mut all);
             // Each effect once before any comes at its second spot.

@@ -388,6 +388,12 @@ impl Bench {
         (0..quirks.len()).map(|at| self.class(train, quirks, at)).collect()
     }
 
+    /// Whether one effect of the library imitates the one that this is, and which is not of it, so well in the training recording that nobody can tell.
+    pub fn is_as_one_of_the_library(&self, quirks: &[Quirk]) -> bool {
+        let (script, plant, _) = self.recorded(Part::Train, quirks);
+        self.classes(quirks, (&script, &plant)).iter().any(|class| class.len() > 1)
+    }
+
     /// What nobody can tell from the one at `at`, of those that `plant` ran with under `script`.
     fn class(&self, (script, plant): (&[Command], &Plant), quirks: &[Quirk], at: usize) -> Vec<Member> {
         let (built, quirk) = (&*self.built, &quirks[at]);

@@ -1,6 +1,6 @@
 //! What else could be wrong with a device: every effect of the catalogue at every place of it where it could act.
 
-use crate::catalogue::{ENTRIES, Entry, Law, Spot};
+use crate::catalogue::{ENTRIES, Entry, Law, Spot, is_outside};
 use crate::plant::Signal;
 use crate::quirk::Quirk;
 use crate::robot::AXES;
@@ -25,8 +25,8 @@ const fn also(effect: &'static str, place: &'static str, spots: &'static [Spot],
 const STRENGTHS: [f64; 10] = [3e-6, 2e-5, 1e-4, 5e-4, 2e-3, 8e-3, 0.03, 0.1, 0.35, 1.0];
 const WEAKEST: f64 = 1e-7;
 const STRONGEST: f64 = 5.0;
-/// The same of a time: as long as a recording, or longer.
-const NEVER: f64 = 500.0;
+/// The same of a time, s: no effect of the library may last longer, and what stands for less than that never comes.
+const LONGEST_S: f64 = 10.0;
 
 /// A parameter that is to be found.
 #[derive(Clone, Debug)]
@@ -127,10 +127,14 @@ fn is_free(law: &Law) -> bool {
     }
 }
 
+/// How many numbers what stands in the place of an effect that no file describes may have at least: nobody counts that one's.
+const OF_THE_UNKNOWN: usize = 2;
+
 /// All that could stand in the place of `truth` on its device, with no more to be found than the truth has, the truth's own kind not
 /// among them. `device` is the one that it acts on, with `signals`.
 pub fn candidates(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candidate> {
-    let freedom = freedom(truth);
+    let least = if is_outside(&truth.effect) { OF_THE_UNKNOWN } else { 0 };
+    let freedom = freedom(truth).max(least);
     all(truth, device, signals)
         .into_iter()
         .filter(|candidate| candidate.free.len() <= freedom && candidate.quirk.member() != truth.member())
@@ -147,8 +151,7 @@ pub fn own(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candidate> {
 fn all(truth: &Quirk, device: &str, signals: &[Signal]) -> Vec<Candidate> {
     let axis = axis(truth.component.as_deref().unwrap_or_default());
     let mut found = Vec::new();
-    for entry in ENTRIES.iter().chain(ALSO).filter(|entry| !entry.effect.starts_with("x-") && !is_random(entry.effect))
-    {
+    for entry in ENTRIES.iter().chain(ALSO).filter(|entry| !is_outside(entry.effect) && !is_random(entry.effect)) {
         for spot in spots(entry, truth, device, axis, signals) {
             found.extend(with(entry, &spot));
         }
@@ -272,11 +275,10 @@ fn free(law: &Law, scale: f64) -> Option<Free> {
     };
     let in_no_order = |free: Option<Free>| free.map(|free| Free { sides: 0, ..free });
     let grows = |name, most: f64| {
-        // What comes late by longer than it stands never comes.
         let is_time = ["time", "time_constant"].contains(&name);
-        let strongest = if is_time { NEVER } else { STRONGEST };
-        let starts = STRENGTHS.iter().copied().chain(is_time.then_some(NEVER)).map(|s| most * s);
-        log(name, starts.collect(), most * WEAKEST, most * strongest)
+        let strongest = if is_time { LONGEST_S } else { most * STRONGEST };
+        let starts = STRENGTHS.iter().map(|s| most * s).chain(is_time.then_some(LONGEST_S));
+        log(name, starts.collect(), most * WEAKEST, strongest)
     };
     match *law {
         Law::Grows(name, most) => grows(name, scale * most),

@@ -301,6 +301,34 @@ fn a_motor_that_slips_by_much_has_another_scale() {
     assert!(found <= SAME, "{found}");
 }
 
+/// A coupling that slips by a tenth of a milliradian in each of some hundred turns may as well be another scale; by a tenth of a radian in each of a few
+/// it is nothing that the library has.
+#[test]
+fn a_coupling_that_slips_in_tiny_steps_has_another_scale() {
+    let motor = Rig::new("Motor", &[(0.1, "enable", 1.0), (0.2, "speedTarget", 20.0)]);
+    let loose = |slip: f64, turn: f64| {
+        at("transmission", quirk("Motor", "x-coupling-slips-each-turn", &[("slip", slip), ("turn", turn)]))
+    };
+    let tiny = motor.class(&loose(1e-4, 0.1), 3.0);
+    assert!(tiny.iter().any(|member| member == "scale-error at transmission"), "{tiny:?}");
+    assert_eq!(motor.class(&loose(0.1, 10.0), 3.0), ["x-coupling-slips-each-turn at transmission"]);
+}
+
+/// What stands for a second or two never comes where it must stand for longer; a delay of ten seconds, which no file of the library exceeds, shows it all the
+/// same.
+#[test]
+fn a_flag_that_never_comes_is_not_merely_late() {
+    let strokes =
+        (0..6).flat_map(|k| [(0.5 + 4.0 * f64::from(k), "command", 1.0), (2.5 + 4.0 * f64::from(k), "command", 2.0)]);
+    let pusher = Rig::new("Pusher", &strokes.collect::<Vec<_>>());
+    let mut stuck = at("report-link", quirk("Pusher", "stuck", &[("value", 0.0), ("from", 0.0)]));
+    stuck.component = Some("limitExtended".to_owned());
+    let class = pusher.class(&stuck, 26.0);
+    let holds = |name: &str| class.iter().any(|member| member == name);
+    assert!(holds("on-delay at sensor") && holds("input-filter at report-link"), "{class:?}");
+    assert!(!holds("dead-time at report-link"), "{class:?}");
+}
+
 #[test]
 fn a_belt_that_slips_has_another_scale_and_no_other_gain() {
     let slips = at("transmission", quirk("Belt", "belt-slip", &[("ratio", 0.1)]));
