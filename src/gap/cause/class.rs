@@ -111,8 +111,8 @@ fn answer(
     weigh(bench, ladder, Answer { place, weight: 0.0, alternatives })
 }
 
-/// How much more of the gap than the answer what nobody can tell from it leaves at most: beside a great remainder, which weighs down all that was recorded,
-/// speeds in other units and a speed that goes with the load, which leaves a sixteenth, cost about the same.
+/// How much more of the gap than the answer what nobody can tell from it leaves at most. (Where much is left, all that was recorded weighs little: beside a dead band
+/// of a belt that left a fifth its speed in other units, which left more than a third, seemed the same.)
 const LEAVES_MORE: f64 = 0.1;
 
 /// What an alternative may leave of the gap's squares.

@@ -78,8 +78,8 @@ fn misfit_of(signal: &SignalScore) -> f64 {
 
 /// Whether of no signal more is left than a law of the library is off by that is the machine's own: a seventieth of what was off, root mean square, and not ten
 /// times as evident as what is no chance. (What seemed a second effect beside a filter of 67 ms, and delays of tenths of a millisecond beside commands that jitter
-/// by 16 and 45 ms and beside reports that get lost, had been 1e-6 to 4e-5 of the squares, and four times as evident; of 13 pairs that were found so, the second
-/// had been 0.04 and more.)
+/// by 16 and 45 ms and beside reports that get lost, had been 1e-6 to 4e-5 of the squares, and at most four times as evident; of 13 pairs that were found so, the
+/// second had been 0.04 and more.)
 pub fn is_laws_own(subject: &Subject, prediction: &Prediction, gap: &Score) -> bool {
     let left = subject.score(prediction);
     left.signals.iter().zip(&gap.signals).all(|(left, gap)| {
