@@ -74,8 +74,11 @@ impl Finding {
             let is_whole = candidate.place == EffectPlace::ReportLink && candidate.component.is_none();
             is_whole && DELAYS.contains(&candidate.effect.id)
         };
-        let delay = best.values().find(|(candidate, _)| is_delay(candidate))?;
-        delay.1.first().copied().filter(|age_s| *age_s <= MOST_AGE_S)
+        // Which of those that nobody can tell apart is named says nothing of which of them it is.
+        let same = self.answers.iter().flat_map(|answer| &answer.alternatives).filter(|other| other.is_same);
+        let same = same.filter_map(|other| other.trial.values().last());
+        let (_, delay) = best.values().chain(same).find(|(candidate, _)| is_delay(candidate))?;
+        delay.first().copied().filter(|age_s| *age_s <= MOST_AGE_S)
     }
 
     /// The effects that it adds: none where nothing is explained.
@@ -404,6 +407,12 @@ mod tests {
         assert_eq!(beside("input-filter", link, 2.2e-4).seeming_age(&study), Some(2.2e-4));
         assert_eq!(beside("dead-time", EffectPlace::CommandLink, 2.2e-4).seeming_age(&study), None);
         assert_eq!(beside("clock-drift", link, 2.2e-4).seeming_age(&study), None);
+        // Named as a delay of the commands, which nobody can tell from one of the reports.
+        let mut told = beside("dead-time", EffectPlace::CommandLink, 2.2e-4);
+        let trial = beside("dead-time", link, 2.2e-4).ladder.best.with_last(0);
+        let same = Alternative { trial, distance: 0.0, is_same: true, weight: 0.5 };
+        told.answers = vec![Answer { place: 0, weight: 0.5, alternatives: vec![same] }];
+        assert_eq!(told.seeming_age(&study), Some(2.2e-4));
         assert_eq!(beside("dead-time", link, 2.0 * MOST_AGE_S).seeming_age(&study), None);
         study.tasks = vec![Task { age_s: 1e-4, ..Task::default() }];
         assert_eq!(beside("dead-time", link, 2.2e-4).seeming_age(&study), None);
