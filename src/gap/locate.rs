@@ -140,11 +140,16 @@ pub fn evidence_all_along(subject: &Subject, prediction: &Prediction) -> f64 {
     score.signals.iter().map(|signal| all_along(subject, prediction, signal)).fold(0.0, f64::max)
 }
 
+/// That of each of its signals, in the order of [`Subject::signals`]; 0 of one that is not in the recordings.
+pub(super) fn evidences(subject: &Subject, prediction: &Prediction) -> Vec<f64> {
+    let located = signals(subject, prediction, &subject.score(prediction));
+    let of = |name: &str| located.iter().find(|signal| signal.name == name).map_or(0.0, |signal| signal.evidence);
+    subject.signals.iter().map(|info| of(&info.name)).collect()
+}
+
 /// That of one of its signals.
 pub(super) fn evidence_of(place: usize, subject: &Subject, prediction: &Prediction) -> f64 {
-    let score = subject.score(prediction);
-    let of = |signal: &LocatedSignal| signal.name == subject.signals[place].name;
-    signals(subject, prediction, &score).into_iter().find(of).map_or(0.0, |signal| signal.evidence)
+    evidences(subject, prediction)[place]
 }
 
 /// Whether a level is off that a device reports.

@@ -9,7 +9,7 @@ use super::starts::UNLIMITED;
 use super::tangent::{LEAST_OWN, orthonormal, product, take_out};
 use crate::gap::fit::{Range, Slopes};
 use crate::gap::floor::FLOOR_UNCERTAINTY;
-use crate::gap::locate::evidence_of;
+use crate::gap::locate::evidences;
 use crate::gap::statistics::{Draws, binned_share, effective_number, quantile, rank_correlation};
 use crate::gap::{FAR_BEYOND, Predicted, Prediction, Score, SignalScore, Subject, THRESHOLD, evidence_all_along};
 use crate::plant::EffectPlace;
@@ -81,10 +81,10 @@ fn misfit_of(signal: &SignalScore) -> f64 {
 /// by 16 and 45 ms and beside reports that get lost, had been 1e-6 to 4e-5 of the squares, and at most four times as evident; of 13 pairs that were found so, the
 /// second had been 0.04 and more.)
 pub fn is_laws_own(subject: &Subject, prediction: &Prediction, gap: &Score) -> bool {
-    let left = subject.score(prediction);
+    let (left, evidences) = (subject.score(prediction), evidences(subject, prediction));
     left.signals.iter().zip(&gap.signals).all(|(left, gap)| {
         let is_little = misfit_of(left) <= LAWS_OWN * misfit_of(gap);
-        evidence_of(left.signal, subject, prediction) <= if is_little { LAWS_EVIDENCE * THRESHOLD } else { THRESHOLD }
+        evidences[left.signal] <= if is_little { LAWS_EVIDENCE * THRESHOLD } else { THRESHOLD }
     })
 }
 

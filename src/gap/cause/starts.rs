@@ -301,21 +301,22 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         ("direction-asymmetry", _) => {
             (range(least, greatest, 0.02), vec![5e-4, -5e-4, 0.02, -0.02, 0.07, -0.07, 0.13, -0.13, 0.2, -0.2])
         }
-        // Of a drive that is asked for speeds half of the band is one: that below it is not done, and of those above it, if it shifts, so much is missing.
-        ("dead-band", "width") if !speeds_asked(clues).is_empty() => {
-            const SHARES: [f64; 13] = [3e-4, 1e-3, 3e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95];
-            const SLOWEST: usize = 6;
-            let asked = speeds_asked(clues);
-            let fastest = 2.0 * asked[asked.len() - 1];
-            let slowest = asked.iter().take(SLOWEST).map(|speed| 2.0 * 1.02 * speed);
-            let starts = times(&SHARES, fastest).into_iter().chain(slowest).collect();
-            (range(least, greatest.min(1.1 * fastest), 0.01 * fastest), starts)
-        }
-        // A loop about a band is off by its width, whichever that is, and moves on or off at instants that leap with it.
-        ("dead-band", "width") => {
-            let shares = [3e-4, 1e-3, 3e-3, 6e-3, 0.01, 0.015, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4];
-            (range(least, greatest.min(10.0 * unit), 0.01 * unit), times(&shares, unit))
-        }
+        ("dead-band", "width") => match speeds_asked(clues).as_slice() {
+            // A loop about a band is off by its width, whichever that is, and moves on or off at instants that leap with it.
+            [] => {
+                let shares = [3e-4, 1e-3, 3e-3, 6e-3, 0.01, 0.015, 0.02, 0.03, 0.05, 0.1, 0.2, 0.4];
+                (range(least, greatest.min(10.0 * unit), 0.01 * unit), times(&shares, unit))
+            }
+            // Of a drive that is asked for speeds half of the band is one: that below it is not done, and of those above it, if it shifts, so much is missing.
+            asked @ [.., fastest] => {
+                const SHARES: [f64; 13] = [3e-4, 1e-3, 3e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95];
+                const SLOWEST: usize = 6;
+                let widest = 2.0 * fastest;
+                let slowest = asked.iter().take(SLOWEST).map(|speed| 2.0 * 1.02 * speed);
+                let starts = times(&SHARES, widest).into_iter().chain(slowest).collect();
+                (range(least, greatest.min(1.1 * widest), 0.01 * widest), starts)
+            }
+        },
         ("offset", _) => (range(least, greatest, 0.01 * unit), vec![middle_difference(clues)]),
         _ if parameter.nominal == 1.0 => {
             (range(least, greatest, 0.02), vec![0.999, 1.001, 0.99, 1.01, 0.9, 1.1, 0.6, 1.6])

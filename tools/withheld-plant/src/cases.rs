@@ -89,14 +89,15 @@ impl Plan {
     }
 
     /// The machine with what is wrong with it. A machine that can show too little of what was planned is drawn again, and so is an effect
-    /// that hides the other or is hidden by it, and one from outside of the library that one of it imitates so well that nobody could tell; of two effects on a device whose few flags show nothing grossly, clear ones are enough.
+    /// that hides the other or is hidden by it, and one from outside of the library that one of it imitates so well that nobody could tell; of
+    /// two effects on a device whose few flags show nothing grossly, clear ones are enough.
     fn bench(&self, conditions: Conditions) -> (Bench, Vec<Quirk>, f64) {
         let wanted: Vec<&str> = self.first.iter().map(|(_, spot)| spot.0).collect();
         let mut seeds = Dice::new(self.seed, 6);
         let (mut seed, mut magnitude) = (self.seed, self.magnitude);
         loop {
             let bench = Bench::new(self.site.design(&wanted, seed), seed, conditions);
-            let (quirks, distance) = self.wrongs(&bench, magnitude, conditions.classless);
+            let (quirks, distance) = self.wrongs(&bench, magnitude);
             if quirks.len() == self.first.len()
                 && let Some(distance) = as_recorded(&bench, &quirks, magnitude, distance)
             {
@@ -109,7 +110,7 @@ impl Plan {
         }
     }
 
-    fn wrongs(&self, bench: &Bench, magnitude: Magnitude, classless: bool) -> (Vec<Quirk>, f64) {
+    fn wrongs(&self, bench: &Bench, magnitude: Magnitude) -> (Vec<Quirk>, f64) {
         if self.sort == Sort::None {
             return (Vec::new(), 0.0);
         }
@@ -124,8 +125,8 @@ impl Plan {
                 let found = bench.quirk(&ENTRIES[entry], spot, magnitude, &healthy, dice.seed());
                 if let Some((quirk, _)) = found {
                     quirks.push(quirk);
-                    let is_told =
-                        || classless || self.sort != Sort::Outside || !bench.is_as_one_of_the_library(&quirks);
+                    // Also where no classes are asked for: which cases there are does not depend on that.
+                    let is_told = || self.sort != Sort::Outside || !bench.is_as_one_of_the_library(&quirks);
                     if bench.show_beside(&quirks, Magnitude::Clear.range().0, &healthy) && is_told() {
                         break;
                     }
