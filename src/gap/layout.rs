@@ -41,6 +41,12 @@ impl Beside {
         let (beam, _) = ahead.min_by(|a, b| a.1.total_cmp(&b.1))?;
         self.hands[beam].is_empty().then_some((beam, fed.length))
     }
+
+    /// By how much the fronts of those are past that beam where they are put, m.
+    pub fn fed_past(&self, beams: &[Option<f64>; 2]) -> f64 {
+        let beam = self.fed_alone(beams).and_then(|(beam, _)| beams[beam]);
+        self.fed.zip(beam).map_or(0.0, |(fed, beam)| (fed.at + 0.5 * fed.length - beam).max(0.0))
+    }
 }
 
 /// A bay that puts parts on a belt.

@@ -7,13 +7,14 @@
 //! What a link filters changes all the time, and the task takes up what has come through at each of its instants: a staircase, half a cycle
 //! behind. Such a filter is computed here, from when the commands were given, and the device is told its steps in place of the commands.
 //!
-//! Where parts come from is read off the barrier that sees them first. Where its link holds reports up, they came sooner.
+//! Where parts come from is read off the barrier that sees them first. Where its link holds reports up, or it sees late itself, they came sooner.
 
 use std::sync::Arc;
 
 use super::recording::Stamped;
 use super::subject::Run;
 use super::task::Task;
+use super::way::Way;
 use super::world::{Script, Surrounding};
 use crate::effect;
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue};
@@ -30,13 +31,9 @@ enum Held {
 
 impl Held {
     fn of(spec: &EffectSpec) -> Option<Held> {
-        let number = |name: &str| match spec.parameters.get(name) {
-            Some(ParameterValue::Number(value)) => Some(*value),
-            _ => None,
-        };
         match spec.kind.as_str() {
-            "dead-time" => Some(Held::For(number("time")?)),
-            "clock-drift" => Some(Held::More(number("rate")?)),
+            "dead-time" => Some(Held::For(number(spec, "time")?)),
+            "clock-drift" => Some(Held::More(number(spec, "rate")?)),
             _ => None,
         }
     }
@@ -53,6 +50,14 @@ impl Held {
             Held::For(time) => at - time,
             Held::More(rate) => at / (1.0 + rate),
         }
+    }
+}
+
+/// A number of an effect.
+fn number(spec: &EffectSpec, name: &str) -> Option<f64> {
+    match spec.parameters.get(name) {
+        Some(ParameterValue::Number(value)) => Some(*value),
+        _ => None,
     }
 }
 
@@ -102,9 +107,9 @@ pub(super) fn before_the_task<'a>(
         let given = run.commands.iter().filter(|(to, _)| *to == at).map(|(_, stamped)| *stamped);
         let mut arrived: Vec<Stamped> = given.map(|given| Stamped { at: arrives(given.at, &held), ..given }).collect();
         for filter in filters.iter().filter(|filter| is_of(filter.component.as_deref(), port)) {
-            let Some(ParameterValue::Number(time)) = filter.parameters.get("time_constant") else { continue };
+            let Some(time) = number(filter, "time_constant") else { continue };
             let is_number = port.ty == PortType::Real;
-            arrived = if is_number { low_pass(&arrived, *time, (run.task, run.ends)) } else { stood(&arrived, *time) };
+            arrived = if is_number { low_pass(&arrived, time, (run.task, run.ends)) } else { stood(&arrived, time) };
         }
         let handed = arrived.into_iter().map(|stamped| Stamped { at: handed(stamped.at, run.task, &held), ..stamped });
         other.commands.extend(handed.map(|stamped| (at, stamped)));
@@ -151,33 +156,76 @@ fn stood(commands: &[Stamped], time: f64) -> Vec<Stamped> {
     long.map(|command| Stamped { at: command.at + time, ..command }).collect()
 }
 
-/// What surrounds a belt as it was, where the link of its `barriers` holds their reports up as `specs` say; `None` where it does not.
+/// What a barrier's link, and the barrier itself, do to what comes into its beam.
+#[derive(Default)]
+struct Late {
+    /// What holds its reports up.
+    held: Vec<Held>,
+    /// How long after it is cut it says so, s: `on-delay`.
+    on_delay: f64,
+    /// After how much of the belt's way, m: `blind-range`.
+    blind: f64,
+}
+
+impl Late {
+    /// Of the barrier of this name.
+    fn of<'a>(barrier: &str, specs: impl Iterator<Item = &'a EffectSpec> + Clone) -> Late {
+        let is_own = |component: Option<&str>| component.is_none_or(|component| component == barrier);
+        let links = held_on(EffectPlace::ReportLink, specs.clone()).into_iter();
+        // A flag passes such a filter once it has stood for its time.
+        let filters = specs.clone().filter(|spec| spec.place == EffectPlace::ReportLink && spec.kind == "input-filter");
+        let filters =
+            filters.filter_map(|spec| Some((spec.component.as_deref(), Held::For(number(spec, "time_constant")?))));
+        let of_sensor = |kind: &str, name: &str| -> f64 {
+            let own = specs.clone().filter(|spec| spec.place == EffectPlace::Sensor && spec.kind == kind);
+            own.filter(|spec| is_own(spec.component.as_deref())).filter_map(|spec| number(spec, name)).sum()
+        };
+        Late {
+            held: links.chain(filters).filter(|(component, _)| is_own(*component)).map(|(_, held)| held).collect(),
+            on_delay: of_sensor("on-delay", "time"),
+            blind: of_sensor("blind-range", "length"),
+        }
+    }
+
+    /// Whether it is told as it happens.
+    fn is_none(&self) -> bool {
+        self.held.is_empty() && self.on_delay <= 0.0 && self.blind <= 0.0
+    }
+
+    /// When that left the beam which was reported then, s.
+    fn left(&self, seen: f64) -> f64 {
+        self.held.iter().rev().fold(seen, |at, held| held.sooner(at)).max(0.0)
+    }
+
+    /// When that came which was reported then, s, which way the belt ran: 1 or -1.
+    fn came(&self, seen: f64, belt: &Way, way: f64) -> f64 {
+        let cut = (self.left(seen) - self.on_delay).max(0.0);
+        if self.blind > 0.0 { belt.before(cut, way * self.blind).unwrap_or(cut) } else { cut }
+    }
+}
+
+/// What surrounds a belt as it was, where its `barriers`, or their link, report late what `specs` say; `None` where they do not.
 pub(super) fn before_the_report<'a>(
     script: &Script,
     barriers: [Option<&str>; 2],
-    specs: impl Iterator<Item = &'a EffectSpec>,
+    specs: impl Iterator<Item = &'a EffectSpec> + Clone,
 ) -> Option<Arc<Script>> {
-    let links = held_on(EffectPlace::ReportLink, specs);
-    let held = barriers.map(|barrier| {
-        let own = |component: &Option<&str>| barrier.is_some() && (component.is_none() || *component == barrier);
-        links.iter().filter(|(component, _)| own(component)).map(|(_, held)| *held).collect::<Vec<Held>>()
-    });
-    if held.iter().all(Vec::is_empty) {
+    let late = barriers.map(|barrier| barrier.map_or_else(Late::default, |barrier| Late::of(barrier, specs.clone())));
+    if late.iter().all(Late::is_none) {
         return None;
     }
-    let came = |beam: usize, seen: f64| held[beam].iter().rev().fold(seen, |at, held| held.sooner(at)).max(0.0);
     let mut other = script.clone();
     for (place, cut) in other.cuts.iter_mut().enumerate() {
         // The barrier that saw a part first says when it came to the other, too.
         let first = script.cuts[..place].iter().find(|before| before.part == cut.part);
-        cut.from = came(first.map_or(cut.beam, |first| first.beam), cut.from);
-        cut.taken = cut.taken.map(|taken| came(cut.beam, taken));
+        cut.from = late[first.map_or(cut.beam, |first| first.beam)].came(cut.from, &script.way, cut.way);
+        cut.taken = cut.taken.map(|taken| late[cut.beam].left(taken));
     }
     other.cuts.sort_by(|a, b| a.from.total_cmp(&b.from));
     for told in &mut other.told {
         match told.what {
-            Surrounding::BarrierA => told.at = came(0, told.at),
-            Surrounding::BarrierB => told.at = came(1, told.at),
+            Surrounding::BarrierA => told.at = late[0].left(told.at),
+            Surrounding::BarrierB => told.at = late[1].left(told.at),
             _ => {}
         }
     }
@@ -231,7 +279,48 @@ mod tests {
         };
         assert_eq!(came(&dead_time(None)), Some((vec![1.5, 1.5, 2.5], 4.5)));
         assert_eq!(came(&dead_time(Some("lightBarrierA"))), Some((vec![1.5, 1.5, 3.0], 5.0)));
+        let filter = EffectSpec {
+            kind: "input-filter".to_owned(),
+            parameters: [("time_constant".to_owned(), Number(0.5))].into(),
+            ..dead_time(Some("lightBarrierA"))
+        };
+        assert_eq!(came(&filter), came(&dead_time(Some("lightBarrierA"))));
         assert_eq!(came(&dead_time(Some("encoder"))), None);
+    }
+
+    /// A barrier that is blind over 0.1 m of a belt that goes 0.5 m/s is cut 0.2 s before it says so, as one is that is late by 0.2 s; what leaves it is
+    /// seen at once.
+    #[test]
+    fn parts_came_before_their_barrier_saw_them() {
+        let cut = |part: usize, from: f64| Cut {
+            part,
+            beam: 0,
+            from,
+            ahead: 0.0,
+            front: 0.7,
+            way: 1.0,
+            length: 0.3,
+            is_known: false,
+            taken: Some(from + 0.3),
+        };
+        let way = Arc::new(Way { instants: vec![0.0, 1.5, 9.5], metres: vec![0.0, 0.0, 4.0] });
+        let script = Script { cuts: vec![cut(0, 2.0), cut(1, 4.0)], way, ..Script::default() };
+        let late = |kind: &str, name: &str, value: f64| EffectSpec {
+            place: EffectPlace::Sensor,
+            kind: kind.to_owned(),
+            component: Some("lightBarrierA".to_owned()),
+            parameters: [(name.to_owned(), Number(value))].into(),
+        };
+        let came = |spec: &EffectSpec| {
+            let other = before_the_report(&script, [Some("lightBarrierA"), None], std::iter::once(spec))?;
+            assert!(other.cuts.iter().zip(&script.cuts).all(|(other, cut)| other.taken == cut.taken));
+            Some(other.cuts.iter().map(|cut| (1e6 * cut.from).round() / 1e6).collect::<Vec<f64>>())
+        };
+        assert_eq!(came(&late("blind-range", "length", 0.1)), Some(vec![1.8, 3.8]));
+        assert_eq!(came(&late("on-delay", "time", 0.2)), Some(vec![1.8, 3.8]));
+        // It did not go so far before.
+        assert_eq!(came(&late("blind-range", "length", 0.3)), Some(vec![2.0, 3.4]));
+        assert_eq!(came(&late("off-delay", "time", 0.2)), None);
     }
 
     /// Of commands anywhere in the cycle of a task, each leaves its link when the task takes it up next after it has arrived; one that

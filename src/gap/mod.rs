@@ -62,6 +62,7 @@ mod samples;
 mod schedule;
 mod score;
 mod shifts;
+mod shortfall;
 mod silence;
 mod stamps;
 pub mod statistics;

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::lane::{End, Lane, Rider, Step};
 use super::missed::{Missed, passed_unseen};
+use super::shortfall::{self, Passed};
 use super::track::Track;
 use super::world::{Cut, PAST_M, Script, Surrounding, Told};
 
@@ -25,6 +26,8 @@ pub(super) struct Geometry {
     pub lane: Arc<Lane>,
     /// At which beam what comes forwards was put by a bay, and nothing else, and how long the parts of that are, m.
     pub fed: Option<(usize, f64)>,
+    /// By how much the fronts of those are past that beam where they are put, m.
+    pub fed_past: f64,
     /// Spans in which other hands may take a part out of a beam, s, by beam.
     pub hands: [Vec<(f64, f64)>; 2],
 }
@@ -49,6 +52,7 @@ impl Geometry {
             tolerance: 0.0,
             lane: Arc::default(),
             fed: None,
+            fed_past: 0.0,
             hands: Default::default(),
         }
     }
@@ -207,6 +211,8 @@ struct Left {
     gone: f64,
     /// How long it is, m; as the longest, where it never passed the beam.
     length: f64,
+    /// Whether it left the way that it came.
+    is_back: bool,
 }
 
 /// Finds the cuts of parts that the belt brings back to a beam which they had left.
@@ -224,12 +230,13 @@ fn find_again(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f6
                 continue;
             }
             let gone = seen[first].way * (travel(cut.to) - seen[first].start);
+            let is_back = if first == at { goes_back(&cut, travel) } else { gone < GATE_M };
             let fed = geometry.fed.filter(|(fed, _)| *fed == beam && seen[first].way > 0.0).map(|(_, length)| length);
             let known = before.map(|left| left.length).or(fed);
             let length = known.unwrap_or(if gone < GATE_M { longest } else { gone });
-            left.push(Left { first, at: cut.to, gone, length });
+            left.push(Left { first, at: cut.to, gone, length, is_back });
         }
-        left.iter().filter(|left| left.gone < GATE_M).for_each(|left| seen[left.first].is_back = true);
+        left.iter().filter(|left| left.is_back).for_each(|left| seen[left.first].is_back = true);
     }
 }
 
@@ -361,7 +368,7 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
     let by_hands = |cut: &Seen| geometry.hands[cut.beam].iter().any(|(from, to)| (*from..=*to).contains(&cut.to));
     let by_belt = |cut: &Seen| cut.fall.is_some() && !by_hands(cut);
     // What the belt brings again, or takes back the way it came, says nothing of a length.
-    let turns_back = |cut: &Seen| cut.fall.is_some() && cut.way * (travel(cut.to) - cut.start) < GATE_M;
+    let turns_back = |cut: &Seen| cut.fall.is_some() && goes_back(cut, travel);
     for cut in seen.iter().filter(|cut| by_belt(cut) && cut.again.is_none() && !turns_back(cut)) {
         let Some(part) = cut.part.filter(|part| *part < parts) else { continue };
         let (best, known) = (&mut best[part], &known[part]);
@@ -378,19 +385,31 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
             *best = Some((least, length));
         }
     }
+    let known_of = |cut: &Seen| cut.part.and_then(|part| known.get(part).copied().flatten());
+    let found_of = |cut: &Seen| Some(best.get(cut.part?)?.as_ref()?.1);
+    let of_part = |cut: &Seen| found_of(cut).or(known_of(cut));
+    let beyond = |cut: &Seen, length: f64| {
+        let made = made.filter(|_| known_of(cut).is_some()).unwrap_or(length);
+        Passed { beyond: goes_beyond(geometry, cut, made, travel), length }
+    };
+    let all_are_off = [0, 1].map(|beam| {
+        // What a bay puts into the beam is seen for less of its way by any sensor.
+        let is_past = geometry.fed_past > 0.0 && geometry.fed.is_some_and(|(fed, _)| fed == beam);
+        let passes = |cut: &&Seen| cut.beam == beam && by_belt(cut) && cut.again.is_none() && !turns_back(cut);
+        let all: Vec<Passed> = seen.iter().filter(passes).filter_map(|cut| Some(beyond(cut, of_part(cut)?))).collect();
+        shortfall::of_most(&all).filter(|_| !is_past)
+    });
     for cut in seen.iter_mut().filter(|cut| by_belt(cut) || cut.stays) {
-        let found = cut.part.and_then(|part| best.get(part).copied().flatten()).map(|(_, length)| length);
-        let length = found.or(cut.part.and_then(|part| known.get(part).copied().flatten()).filter(|_| turns_back(cut)));
+        let length = found_of(cut).or(known_of(cut).filter(|_| turns_back(cut)));
         if cut.stays || cut.again.is_some() || turns_back(cut) {
             cut.length = length;
             continue;
         }
-        let is_known = cut.part.is_some_and(|part| known.get(part).is_some_and(Option::is_some));
-        let fits = |length: &f64| {
-            let made = made.filter(|_| is_known).unwrap_or(*length);
-            misses(geometry, cut, made, travel) <= LENGTH_GATE_M.max(LENGTH_GATE * length)
-        };
-        cut.length = length.filter(fits);
+        let passed = |length: f64| beyond(cut, length);
+        let fits = |length: &f64| passed(*length).beyond.abs() <= LENGTH_GATE_M.max(LENGTH_GATE * length);
+        let is_as_all = |length: &f64| all_are_off[cut.beam].is_some_and(|off| passed(*length).agrees(off));
+        let as_all = of_part(cut).filter(is_as_all);
+        cut.length = length.filter(fits).or(as_all);
     }
 }
 
@@ -428,8 +447,20 @@ fn nearest(lengths: &[f64], off: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
     lengths.iter().map(|length| (off(*length), *length)).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
+/// Whether a part left a beam the way that it came: it went no further than a part is long, and the belt does not run on with it.
+fn goes_back(cut: &Seen, travel: &dyn Fn(f64) -> f64) -> bool {
+    const JUST_S: f64 = 0.02;
+    let runs_on = cut.way * (travel(cut.to) - travel(cut.to - JUST_S)) > 0.0;
+    cut.way * (travel(cut.to) - cut.start) < GATE_M && !runs_on
+}
+
 /// How far a part of this length would have gone too far or not far enough while it cut the beam, m.
 fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> f64) -> f64 {
+    goes_beyond(geometry, cut, length, travel).abs()
+}
+
+/// The same, less than 0 where it did not go far enough.
+fn goes_beyond(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> f64) -> f64 {
     const STEP_S: f64 = 0.02;
     let Some(front) = geometry.beams[cut.beam] else { return f64::INFINITY };
     let centre = front - 0.5 * cut.way * length;
@@ -446,7 +477,7 @@ fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> 
         ([End::Open, _], false) => front + 0.5 * length,
         _ => length,
     };
-    (rider.gone.abs() - length.min(left)).abs()
+    rider.gone.abs() - length.min(left)
 }
 
 /// How far it is from one beam to the other, the way the belt runs.
@@ -605,6 +636,27 @@ mod tests {
         let (script, origins) = of_rig(&[(1.01, 1.61)], &[(3.87, 4.41)]);
         assert_eq!(origins, [[0, 0].map(Origin::Part).to_vec(), [0, 0].map(Origin::Part).to_vec()]);
         assert!(script.cuts.iter().all(|cut| cut.length == 0.3));
+    }
+
+    /// Barrier A sees each of five parts for 40 mm of the 0.3 m that it is long, and B as it is; of one that is taken out of A's beam elsewhere the way on is not
+    /// known, and of two cuts alone nothing is said.
+    #[test]
+    fn a_sensor_that_sees_all_parts_late_does_not_stand_for_other_hands() {
+        let cuts = |count: u32, (from, lasts): (f64, f64)| {
+            let cut = |k: u32| (from + 6.0 * f64::from(k), from + lasts + 6.0 * f64::from(k));
+            (0..count).map(cut).collect::<Vec<_>>()
+        };
+        let known = |count: u32, other: f64| {
+            let mut a = cuts(count, (1.53, 0.08));
+            a[0].1 += other;
+            let (script, origins) = of_rig(&a, &cuts(count, (3.81, 0.6)));
+            assert_eq!(
+                origins[0].iter().step_by(2).collect::<Vec<_>>(),
+                origins[1].iter().step_by(2).collect::<Vec<_>>()
+            );
+            script.cuts.iter().filter(|cut| cut.beam == 0 && cut.length == 0.3).count()
+        };
+        assert_eq!((known(5, 0.0), known(5, 0.2), known(2, 0.0)), (5, 4, 0));
     }
 
     #[test]

@@ -61,6 +61,7 @@ pub(super) fn surround(
                 tolerance: tolerance(&belt.surface, sizes),
                 lane: beside.lane.clone(),
                 fed: beside.fed_alone(&belt.barriers),
+                fed_past: beside.fed_past(&belt.barriers),
                 hands: beside.hands.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
@@ -139,6 +140,7 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, bes
     let put_front = fed.map(|fed| fed.at + 0.5 * fed.length);
     let script = Script { beams: geometry.beams, put_front, put: put.to_vec(), ..script };
     let script = coming::told_beside(beside, way, script);
+    let script = Script { way: Arc::new(way.clone()), ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
             track.origins = origins;

@@ -71,9 +71,37 @@ impl Way {
     }
 }
 
+impl Way {
+    /// The last instant before `at` at which it still had so much further to go, m; less than 0: so much further back.
+    pub fn before(&self, at: f64, metres: f64) -> Option<f64> {
+        let (goal, sign) = (self.at(at) - metres, metres.signum());
+        let mut after = (at, self.at(at));
+        let behind = self.instants.partition_point(|instant| *instant < at);
+        for place in (0..behind).rev() {
+            let now = (self.instants[place], self.metres[place]);
+            if sign * (now.1 - goal) <= 0.0 {
+                let share = (goal - now.1) / (after.1 - now.1);
+                return Some(now.0 + share * (after.0 - now.0));
+            }
+            after = now;
+        }
+        None
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// On at 0.5 m/s until 2 s, back until 3 s, and on again: at 4 s it is where it was at 2 s, 0.25 m before that at 3.5 s, and 0.75 m before it at 0.5 s; it was
+    /// never more than a metre behind.
+    #[test]
+    fn it_is_known_when_a_belt_was_so_far_behind() {
+        let way = Way { instants: vec![0.0, 2.0, 3.0, 5.0], metres: vec![0.0, 1.0, 0.5, 1.5] };
+        let before = |at: f64, metres: f64| way.before(at, metres).map(|at| (1e9 * at).round() / 1e9);
+        assert_eq!([0.25, 0.75, 1.1].map(|metres| before(4.0, metres)), [Some(3.5), Some(0.5), None]);
+        assert_eq!([-0.25, -0.5].map(|metres| before(3.0, metres)), [Some(2.5), Some(2.0)]);
+    }
 
     /// 0.5 m/s from 1 s on; what lay there loses half of 0.5 m/s times 2 s on the way, what was put there at 3 s no more than it has lost by then.
     #[test]

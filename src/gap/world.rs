@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::lane::{Lane, Rider, Step};
 use super::prediction::{Passing, Turn};
+use super::way::Way;
 use crate::device::law::follower::Slider;
 use crate::device::path::STRETCH_S;
 use crate::device::{Belt, Device, Role, Surroundings};
@@ -22,6 +23,8 @@ pub struct Script {
     pub told: Vec<Told>,
     /// Of a belt: itself among its neighbours.
     pub(super) lane: Arc<Lane>,
+    /// The way by which its cuts were read.
+    pub(super) way: Arc<Way>,
     /// Where the beams are that the cuts were read from, m from the belt's start.
     pub beams: [Option<f64>; 2],
     /// The parts that the belt brings back to a beam.

@@ -107,8 +107,9 @@ impl Pusher {
     fn switches(&mut self) {
         let load = self.train.load();
         let tolerance = self.parameters.limit_tolerance + 1e-12;
-        self.extended.see(load >= self.parameters.stroke - tolerance, load);
-        self.retracted.see(load <= tolerance, load);
+        let near_end = self.parameters.stroke - tolerance;
+        self.extended.see_past(load >= near_end, load, near_end);
+        self.retracted.see_past(load <= tolerance, load, tolerance);
     }
 }
 
@@ -171,7 +172,7 @@ impl Device for Pusher {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bench::quirk;
+    use crate::bench::{axis_quirk, quirk};
 
     /// When the pusher, sent out at 0, is first seen at its end.
     fn arrives(quirks: &[Quirk]) -> f64 {
@@ -204,5 +205,27 @@ mod tests {
         check(&[quirk("P", "end-cushioning", &[("length", 0.05), ("ratio", 0.5)])], 0.9 + 0.048 / 0.25);
         check(&[quirk("P", "switch-on-delay", &[("time", 0.1)])], 1.096);
         check(&[quirk("P", "first-order-lag", &[("time_constant", 0.05)])], 1.046);
+    }
+
+    /// A switch that is blind over most of the 2 mm that it looks along comes on with every stroke, wherever the steps end; over more than
+    /// them it never does.
+    #[test]
+    fn a_blind_switch_comes_with_every_stroke_or_never() {
+        let parameters =
+            PusherParameters { stroke: 0.5, extend_speed: 0.5, retract_speed: 0.5, limit_tolerance: 0.002 };
+        let strokes = |length: f64| {
+            let quirks = [axis_quirk("P", "limitExtended", "blind-range", &[("length", length)])];
+            let comes = |phase: &u32| {
+                let mut pusher = Pusher::new(&parameters, &quirks, "P");
+                pusher.command(0.0, "command", 1.0);
+                pusher.advance(1e-4, 2.5e-6 * f64::from(*phase), 0);
+                (2..12_000).for_each(|k| pusher.advance(f64::from(k) * 1e-4, 1e-4, 0));
+                let mut values = Vec::new();
+                pusher.read(1.2, &mut values);
+                values[0] != 0.0
+            };
+            (0..40).filter(comes).count()
+        };
+        assert_eq!([0.00199, 0.00201].map(strokes), [40, 0]);
     }
 }

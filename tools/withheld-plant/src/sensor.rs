@@ -26,9 +26,14 @@ impl Along {
 
     /// What it should see, and how far that on which it looks has travelled.
     pub fn see(&mut self, raw: bool, travel: f64) {
+        self.see_past(raw, travel, travel);
+    }
+
+    /// The same of one that changes where that on which it looks has travelled `edge`: exactly there, not where the step ends in which it does so.
+    pub fn see_past(&mut self, raw: bool, travel: f64, edge: f64) {
         if raw != self.raw {
             self.raw = raw;
-            self.edge_at = travel;
+            self.edge_at = edge;
         }
         let late = if raw { self.blind } else { self.width };
         if (travel - self.edge_at).abs() >= late {

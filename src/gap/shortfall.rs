@@ -1,0 +1,48 @@
+//! By how much a barrier sees every part for less of its way than it is long: that is its sensor. Other hands take parts out of a beam, or put them into it,
+//! anywhere.
+
+/// In how many of its parts a barrier must agree with itself.
+const ENOUGH: usize = 3;
+/// How far from one another those that agree may be, as a share of the part's length.
+const AGREE: f64 = 0.1;
+
+/// What a beam saw of a part: how much further than its length that went meanwhile, m, and that length, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Passed {
+    pub beyond: f64,
+    pub length: f64,
+}
+
+impl Passed {
+    /// Whether this part goes so much further, m.
+    pub fn agrees(&self, beyond: f64) -> bool {
+        (self.beyond - beyond).abs() <= AGREE * self.length
+    }
+}
+
+/// By how much further than they are long most of these parts go while they cut a beam, m: less than 0. (What is cut for longer may be the gaps between
+/// parts.)
+pub(super) fn of_most(passed: &[Passed]) -> Option<f64> {
+    let mut beyond: Vec<f64> = passed.iter().map(|passed| passed.beyond).collect();
+    beyond.sort_by(f64::total_cmp);
+    let middle = *beyond.get(beyond.len() / 2)?;
+    let agree = passed.iter().filter(|passed| passed.agrees(middle)).count();
+    (middle < 0.0 && agree >= ENOUGH && 2 * agree > passed.len()).then_some(middle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn most_parts_say_what_a_sensor_misses() {
+        let passed =
+            |beyond: &[f64]| of_most(&beyond.iter().map(|&beyond| Passed { beyond, length: 0.25 }).collect::<Vec<_>>());
+        assert_eq!(passed(&[-0.12, -0.13, -0.17, -0.121]), Some(-0.121));
+        // Too few, and each somewhere else.
+        assert_eq!(passed(&[-0.12, -0.13]), None);
+        assert_eq!(passed(&[-0.20, -0.13, -0.05, -0.09, -0.23]), None);
+        assert_eq!(passed(&[]), None);
+        assert_eq!(passed(&[2.4, 2.41, 2.4]), None);
+    }
+}
