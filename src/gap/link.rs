@@ -246,6 +246,9 @@ fn handed(at: f64, task: Task, held: &[Held]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gap::Overrides;
+    use crate::gap::recorded_tests::{BLIND_BARRIER, study};
+    use crate::gap::subject::beam_of;
     use crate::gap::world::{Cut, Told};
     use crate::plant::EffectPlace::ReportLink;
     use crate::plant::ParameterValue::Number;
@@ -321,6 +324,29 @@ mod tests {
         // It did not go so far before.
         assert_eq!(came(&late("blind-range", "length", 0.3)), Some(vec![2.0, 3.4]));
         assert_eq!(came(&late("off-delay", "time", 0.2)), None);
+    }
+
+    /// What parts do that a barrier sees 0.1 m late is explained by that, and less so by a delay of about the same mean.
+    #[test]
+    fn a_barrier_that_sees_late_leaves_nothing_where_its_parts_are() {
+        let study = study(BLIND_BARRIER);
+        let belt = study.subject("Belt").expect("it moves");
+        let left = |kind: &str, name: &str, value: f64| {
+            let late = EffectSpec {
+                place: EffectPlace::Sensor,
+                kind: kind.to_owned(),
+                component: Some("lightBarrierA".to_owned()),
+                parameters: [(name.to_owned(), Number(value))].into(),
+            };
+            // Its second barrier is 11 mm sooner than declared, within its tolerance.
+            let predicted = belt.predict(&[late], &Overrides::one("barrierB", 1.6889)).expect("a prediction");
+            let score = belt.score(&predicted);
+            let of_barriers = score.signals.iter().filter(|score| beam_of(&belt.signals[score.signal]).is_some());
+            of_barriers.map(|score| score.cost).sum::<f64>()
+        };
+        let (gap, blind, late) =
+            (left("blind-range", "length", 0.0), left("blind-range", "length", 0.104), left("on-delay", "time", 0.22));
+        assert!(blind < 0.2 * gap && late > 2.0 * blind && late < gap, "{blind} {late} of {gap}");
     }
 
     /// Of commands anywhere in the cycle of a task, each leaves its link when the task takes it up next after it has arrived; one that

@@ -26,6 +26,8 @@ pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst
 pub const LATE_ROBOT: &str = "tests/data/robot-whose-reports-are-late.cps.jsonl.zst";
 /// A pusher whose switch at the retracted end is blind over 100 mm and so never comes again, beside a motor and a gripper.
 pub const BLIND_SWITCH: &str = "tests/data/pusher-whose-switch-is-blind.cps.jsonl.zst";
+/// A belt whose barrier A is blind over 100 mm of what parts go, and sees each for 0.2 m of its 0.3, beside a motor.
+pub const BLIND_BARRIER: &str = "tests/data/belt-whose-barrier-is-blind.cps.jsonl.zst";
 /// A robot whose gripping axis turns with a lag of 0.23 ms, which its nominal limits nearly make up for, beside a gripper.
 pub const LAGGING_ROBOT: &str = "tests/data/robot-whose-axis-lags-a-little.cps.jsonl.zst";
 /// A belt whose parts slip on it beyond 0.2 m/s², beside a motor.
