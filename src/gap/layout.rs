@@ -6,8 +6,8 @@ use super::alone;
 use super::bay;
 use super::lane::{Beyond, End, Lane};
 use super::overrides::Overrides;
-use super::parts::middle;
 use super::recording::TaskId;
+use super::seen::middle;
 use super::subject::{Subject, beam_of};
 use super::track::Track;
 use super::way::Way;
@@ -40,12 +40,6 @@ impl Beside {
         let ahead = beams.iter().enumerate().filter_map(|(beam, at)| Some((beam, (*at).filter(|at| *at > fed.at)?)));
         let (beam, _) = ahead.min_by(|a, b| a.1.total_cmp(&b.1))?;
         self.hands[beam].is_empty().then_some((beam, fed.length))
-    }
-
-    /// By how much the fronts of those are past that beam where they are put, m.
-    pub fn fed_past(&self, beams: &[Option<f64>; 2]) -> f64 {
-        let beam = self.fed_alone(beams).and_then(|(beam, _)| beams[beam]);
-        self.fed.zip(beam).map_or(0.0, |(fed, beam)| (fed.at + 0.5 * fed.length - beam).max(0.0))
     }
 }
 

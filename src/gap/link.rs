@@ -253,6 +253,16 @@ mod tests {
     use crate::plant::EffectPlace::ReportLink;
     use crate::plant::ParameterValue::Number;
 
+    /// Barrier A with an effect of one number.
+    fn late(kind: &str, name: &str, value: f64) -> EffectSpec {
+        EffectSpec {
+            place: EffectPlace::Sensor,
+            kind: kind.to_owned(),
+            component: Some("lightBarrierA".to_owned()),
+            parameters: [(name.to_owned(), Number(value))].into(),
+        }
+    }
+
     /// A part that barrier A saw at 2 s, and B's cut of it; one that B saw first, at 3 s; and a beam that is played back.
     #[test]
     fn parts_came_before_their_report() {
@@ -308,12 +318,6 @@ mod tests {
         };
         let way = Arc::new(Way { instants: vec![0.0, 1.5, 9.5], metres: vec![0.0, 0.0, 4.0] });
         let script = Script { cuts: vec![cut(0, 2.0), cut(1, 4.0)], way, ..Script::default() };
-        let late = |kind: &str, name: &str, value: f64| EffectSpec {
-            place: EffectPlace::Sensor,
-            kind: kind.to_owned(),
-            component: Some("lightBarrierA".to_owned()),
-            parameters: [(name.to_owned(), Number(value))].into(),
-        };
         let came = |spec: &EffectSpec| {
             let other = before_the_report(&script, [Some("lightBarrierA"), None], std::iter::once(spec))?;
             assert!(other.cuts.iter().zip(&script.cuts).all(|(other, cut)| other.taken == cut.taken));
@@ -332,14 +336,9 @@ mod tests {
         let study = study(BLIND_BARRIER);
         let belt = study.subject("Belt").expect("it moves");
         let left = |kind: &str, name: &str, value: f64| {
-            let late = EffectSpec {
-                place: EffectPlace::Sensor,
-                kind: kind.to_owned(),
-                component: Some("lightBarrierA".to_owned()),
-                parameters: [(name.to_owned(), Number(value))].into(),
-            };
             // Its second barrier is 11 mm sooner than declared, within its tolerance.
-            let predicted = belt.predict(&[late], &Overrides::one("barrierB", 1.6889)).expect("a prediction");
+            let predicted =
+                belt.predict(&[late(kind, name, value)], &Overrides::one("barrierB", 1.6889)).expect("a prediction");
             let score = belt.score(&predicted);
             let of_barriers = score.signals.iter().filter(|score| beam_of(&belt.signals[score.signal]).is_some());
             of_barriers.map(|score| score.cost).sum::<f64>()

@@ -3,7 +3,7 @@
 //! Other hands may take a part away before it comes to a barrier, or put one behind it, and nobody recorded that. So a part is
 //! missed only where other things say that it was there.
 
-use super::parts::{Geometry, RELIABLE, Seen, distance};
+use super::seen::{Geometry, RELIABLE, Seen, distance};
 
 /// In how many of its parts both barriers must have been reached; where one then stayed cut, which no part does, in this many.
 const ENOUGH: usize = 3;

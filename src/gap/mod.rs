@@ -61,6 +61,7 @@ mod restarts;
 mod samples;
 mod schedule;
 mod score;
+mod seen;
 mod shifts;
 mod shortfall;
 mod silence;

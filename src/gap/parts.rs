@@ -5,61 +5,14 @@
 //! sensor adds: it is where all edges of the part together are likeliest. So no edge of a belt is compared with one that it
 //! inherited from the belt before.
 
-use std::sync::Arc;
-
-use super::lane::{End, Lane, Rider, Step};
+use super::lane::{End, Rider, Step};
 use super::missed::{Missed, passed_unseen};
+use super::seen::{GATE_M, Geometry, RELIABLE, Seen, cuts, distance, goes_back, middle, see_little};
 use super::shortfall::{self, Passed};
 use super::track::Track;
 use super::world::{Cut, PAST_M, Script, Surrounding, Told};
 
-/// What of a belt's geometry its barriers see.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Geometry {
-    /// Where the beams are, m along the belt from its start.
-    pub beams: [Option<f64>; 2],
-    /// How long the parts of this plant cut a beam, m of the belt's way, in any position that they stand in.
-    pub lengths: Vec<f64>,
-    /// How far its parts' edges may be off, m.
-    pub tolerance: f64,
-    /// The belt among its neighbours.
-    pub lane: Arc<Lane>,
-    /// At which beam what comes forwards was put by a bay, and nothing else, and how long the parts of that are, m.
-    pub fed: Option<(usize, f64)>,
-    /// By how much the fronts of those are past that beam where they are put, m.
-    pub fed_past: f64,
-    /// Spans in which other hands may take a part out of a beam, s, by beam.
-    pub hands: [Vec<(f64, f64)>; 2],
-}
-
-impl Geometry {
-    /// Whether a belt that goes on so far, m, must have taken out of a beam whatever cut it.
-    fn is_further_than_parts(&self, way: f64) -> bool {
-        way.abs() > STAYS * self.longest()
-    }
-
-    /// How long the longest part is, m.
-    fn longest(&self) -> f64 {
-        self.lengths.iter().copied().fold(0.0, f64::max)
-    }
-
-    /// That of the rig's belt, on which nothing else is known.
-    #[cfg(test)]
-    pub(super) fn of_rig() -> Geometry {
-        Geometry {
-            beams: [Some(0.3), Some(1.7)],
-            lengths: vec![0.3],
-            tolerance: 0.0,
-            lane: Arc::default(),
-            fed: None,
-            fed_past: 0.0,
-            hands: Default::default(),
-        }
-    }
-}
-
-/// How far from where it is expected a part may be seen, m, and as a share of its way.
-const GATE_M: f64 = 0.08;
+/// How far from where it is expected a part may be seen, beside [`GATE_M`], as a share of its way.
 const GATE: f64 = 0.08;
 /// How far from a known length a part may have cut a beam, as a share.
 const LENGTH_GATE: f64 = 0.25;
@@ -70,10 +23,7 @@ const PASSES_M: f64 = 0.05;
 /// How far from where it left a beam a part may be by the belt's way when it comes back, m: it slips where the belt turns, and parts are further
 /// apart.
 const BACK_M: f64 = 0.25;
-/// Which share of the parts of one barrier must reach the other for one that does not to be missed.
-pub(super) const RELIABLE: f64 = 0.8;
-/// After how many times the longest part's way a barrier that is cut still has been left by what cut it.
-const STAYS: f64 = 2.0;
+
 /// What an edge of a barrier is to a score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
@@ -81,28 +31,6 @@ pub enum Origin {
     Part(usize),
     /// Nothing predicts it: it was played back.
     Input,
-}
-
-/// An interval in which a beam was cut, in terms of its track's edges.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Seen {
-    pub beam: usize,
-    rise: usize,
-    fall: Option<usize>,
-    /// The belt's way at its rise, m.
-    pub start: f64,
-    /// Instants, s: the middles of the cycles.
-    pub from: f64,
-    pub to: f64,
-    pub way: f64,
-    /// Whether it stayed cut though the belt went on by more than any part is long.
-    pub stays: bool,
-    length: Option<f64>,
-    pub part: Option<usize>,
-    /// The place of the cut that this one goes on with: the belt turned, and brought back what had left the beam.
-    pub again: Option<usize>,
-    /// Whether it left the beam the way that it came, and did not come again.
-    is_back: bool,
 }
 
 /// What the barriers of a belt saw, as a script and as the origins of their edges. `travel` gives the belt's nominal way at an
@@ -142,12 +70,6 @@ pub(super) fn assign(
     (script, origins)
 }
 
-/// The middle of the cycle in which an edge came, s.
-pub(super) fn middle(track: &Track, index: usize) -> f64 {
-    let (before, seen) = super::edges::interval(track, index);
-    0.5 * (before + seen)
-}
-
 /// What stood in the beam from the start leaves it as it was recorded.
 fn play_initial(beam: usize, track: &Track, script: &mut Script) {
     let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
@@ -157,48 +79,6 @@ fn play_initial(beam: usize, track: &Track, script: &mut Script) {
             script.told.push(Told { at: middle(track, first.index), what, is_on: false });
         }
     }
-}
-
-fn cuts(geometry: &Geometry, beam: usize, track: &Track, travel: &dyn Fn(f64) -> f64) -> Vec<Seen> {
-    let mut cuts = Vec::new();
-    let last = track.grid.instants.last().copied().unwrap_or(0.0);
-    for (rise, edge) in track.edges.iter().enumerate().filter(|(_, edge)| edge.to != 0.0) {
-        let fall = track.edges.get(rise + 1).map(|_| rise + 1);
-        let from = middle(track, edge.index);
-        let to = fall.map_or(f64::INFINITY, |fall| middle(track, track.edges[fall].index));
-        let start = travel(from);
-        let end = if fall.is_some() { travel(to) } else { start };
-        // At the instant of the rise the belt may stand already: which way it came from counts.
-        let before = travel(from - 2.0 * track.grid.cycle.max(0.01));
-        let way = if end - before < 0.0 { -1.0 } else { 1.0 };
-        let is_seen = geometry.beams[beam].is_some();
-        if is_seen {
-            let stays = fall.is_none() && geometry.is_further_than_parts(travel(last) - start);
-            cuts.push(Seen {
-                beam,
-                rise,
-                fall,
-                start,
-                from,
-                to,
-                way,
-                stays,
-                length: None,
-                part: None,
-                again: None,
-                is_back: false,
-            });
-        }
-    }
-    cuts
-}
-
-/// Whether a beam is cut while the belt goes on by more than any part is long.
-pub(super) fn is_cut_for_too_long(geometry: &Geometry, track: &Track, travel: &dyn Fn(f64) -> f64) -> bool {
-    let ends = track.grid.instants.last().copied().unwrap_or(0.0);
-    let edges = track.edges.iter().map(|edge| (middle(track, edge.index), edge.to));
-    let states: Vec<(f64, f64)> = [(0.0, track.initial)].into_iter().chain(edges).chain([(ends, 0.0)]).collect();
-    states.windows(2).any(|of| of[0].1 != 0.0 && geometry.is_further_than_parts(travel(of[1].0) - travel(of[0].0)))
 }
 
 /// A part that left a beam, and where it is from there.
@@ -218,6 +98,7 @@ struct Left {
 /// Finds the cuts of parts that the belt brings back to a beam which they had left.
 fn find_again(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f64) {
     let longest = geometry.longest();
+    let see_little = see_little(seen, travel);
     for beam in 0..2 {
         let mut left: Vec<Left> = Vec::new();
         for at in (0..seen.len()).filter(|at| seen[*at].beam == beam).collect::<Vec<_>>() {
@@ -230,7 +111,7 @@ fn find_again(geometry: &Geometry, seen: &mut [Seen], travel: &dyn Fn(f64) -> f6
                 continue;
             }
             let gone = seen[first].way * (travel(cut.to) - seen[first].start);
-            let is_back = if first == at { goes_back(&cut, travel) } else { gone < GATE_M };
+            let is_back = if first == at { goes_back(&cut, see_little, travel) } else { gone < GATE_M };
             let fed = geometry.fed.filter(|(fed, _)| *fed == beam && seen[first].way > 0.0).map(|(_, length)| length);
             let known = before.map(|left| left.length).or(fed);
             let length = known.unwrap_or(if gone < GATE_M { longest } else { gone });
@@ -368,7 +249,8 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
     let by_hands = |cut: &Seen| geometry.hands[cut.beam].iter().any(|(from, to)| (*from..=*to).contains(&cut.to));
     let by_belt = |cut: &Seen| cut.fall.is_some() && !by_hands(cut);
     // What the belt brings again, or takes back the way it came, says nothing of a length.
-    let turns_back = |cut: &Seen| cut.fall.is_some() && goes_back(cut, travel);
+    let see_little = see_little(seen, travel);
+    let turns_back = |cut: &Seen| goes_back(cut, see_little, travel);
     for cut in seen.iter().filter(|cut| by_belt(cut) && cut.again.is_none() && !turns_back(cut)) {
         let Some(part) = cut.part.filter(|part| *part < parts) else { continue };
         let (best, known) = (&mut best[part], &known[part]);
@@ -393,11 +275,9 @@ fn give_lengths(geometry: &Geometry, seen: &mut [Seen], parts: usize, travel: &d
         Passed { beyond: goes_beyond(geometry, cut, made, travel), length }
     };
     let all_are_off = [0, 1].map(|beam| {
-        // What a bay puts into the beam is seen for less of its way by any sensor.
-        let is_past = geometry.fed_past > 0.0 && geometry.fed.is_some_and(|(fed, _)| fed == beam);
         let passes = |cut: &&Seen| cut.beam == beam && by_belt(cut) && cut.again.is_none() && !turns_back(cut);
         let all: Vec<Passed> = seen.iter().filter(passes).filter_map(|cut| Some(beyond(cut, of_part(cut)?))).collect();
-        shortfall::of_most(&all).filter(|_| !is_past)
+        shortfall::of_nearly_all(&all).filter(|_| !geometry.is_put_into(beam))
     });
     for cut in seen.iter_mut().filter(|cut| by_belt(cut) || cut.stays) {
         let length = found_of(cut).or(known_of(cut).filter(|_| turns_back(cut)));
@@ -447,13 +327,6 @@ fn nearest(lengths: &[f64], off: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
     lengths.iter().map(|length| (off(*length), *length)).min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether a part left a beam the way that it came: it went no further than a part is long, and the belt does not run on with it.
-fn goes_back(cut: &Seen, travel: &dyn Fn(f64) -> f64) -> bool {
-    const JUST_S: f64 = 0.02;
-    let runs_on = cut.way * (travel(cut.to) - travel(cut.to - JUST_S)) > 0.0;
-    cut.way * (travel(cut.to) - cut.start) < GATE_M && !runs_on
-}
-
 /// How far a part of this length would have gone too far or not far enough while it cut the beam, m.
 fn misses(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64) -> f64) -> f64 {
     goes_beyond(geometry, cut, length, travel).abs()
@@ -478,12 +351,6 @@ fn goes_beyond(geometry: &Geometry, cut: &Seen, length: f64, travel: &dyn Fn(f64
         _ => length,
     };
     rider.gone.abs() - length.min(left)
-}
-
-/// How far it is from one beam to the other, the way the belt runs.
-pub(super) fn distance(geometry: &Geometry, beam: usize, way: f64) -> Option<f64> {
-    let [Some(a), Some(b)] = geometry.beams else { return None };
-    Some(if beam == 0 { way * (b - a) } else { way * (a - b) })
 }
 
 /// What one cut is in the script: moved with the belt from the part's first edge, or played back.
@@ -533,6 +400,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::gap::lane::Lane;
 
     /// A belt of the rig's that always runs at 0.5 m/s.
     fn of_rig(a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {

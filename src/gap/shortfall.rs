@@ -1,9 +1,10 @@
 //! By how much a barrier sees every part for less of its way than it is long: that is its sensor. Other hands take parts out of a beam, or put them into it,
 //! anywhere.
 
-/// In how many of its parts a barrier must agree with itself, and in which share: what a loose contact lets fall differs from part to part.
+use super::seen::NEARLY_ALL;
+
+/// In how many of its parts a barrier must agree with itself.
 const ENOUGH: usize = 3;
-const MOST: f64 = 0.8;
 /// How far from one another those that agree may be, as a share of the part's length.
 const AGREE: f64 = 0.1;
 
@@ -21,14 +22,14 @@ impl Passed {
     }
 }
 
-/// By how much further than they are long most of these parts go while they cut a beam, m: less than 0. (What is cut for longer may be the gaps between
+/// By how much further than they are long nearly all of these parts go while they cut a beam, m: less than 0. (What is cut for longer may be the gaps between
 /// parts.)
-pub(super) fn of_most(passed: &[Passed]) -> Option<f64> {
+pub(super) fn of_nearly_all(passed: &[Passed]) -> Option<f64> {
     let mut beyond: Vec<f64> = passed.iter().map(|passed| passed.beyond).collect();
     beyond.sort_by(f64::total_cmp);
     let middle = *beyond.get(beyond.len() / 2)?;
     let agree = passed.iter().filter(|passed| passed.agrees(middle)).count();
-    (middle < 0.0 && agree >= ENOUGH && agree as f64 >= MOST * passed.len() as f64).then_some(middle)
+    (middle < 0.0 && agree >= ENOUGH && agree as f64 >= NEARLY_ALL * passed.len() as f64).then_some(middle)
 }
 
 #[cfg(test)]
@@ -36,9 +37,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn most_parts_say_what_a_sensor_misses() {
-        let passed =
-            |beyond: &[f64]| of_most(&beyond.iter().map(|&beyond| Passed { beyond, length: 0.25 }).collect::<Vec<_>>());
+    fn nearly_all_parts_say_what_a_sensor_misses() {
+        let passed = |beyond: &[f64]| {
+            of_nearly_all(&beyond.iter().map(|&beyond| Passed { beyond, length: 0.25 }).collect::<Vec<_>>())
+        };
         assert_eq!(passed(&[-0.12, -0.13, -0.17, -0.121, -0.119]), Some(-0.121));
         // Too few, and each somewhere else.
         assert_eq!(passed(&[-0.12, -0.13]), None);

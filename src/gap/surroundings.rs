@@ -8,7 +8,8 @@
 use std::sync::Arc;
 
 use super::layout::Beside;
-use super::parts::{self, Geometry, Origin};
+use super::parts::{self, Origin};
+use super::seen::{Geometry, is_cut_for_too_long, middle};
 use super::subject::{Run, SignalInfo, beam_of};
 use super::track::{Edge, Track};
 use super::way::Way;
@@ -55,13 +56,14 @@ pub(super) fn surround(
 ) {
     let script = match device.role() {
         Role::Carries(belt) => {
+            let fed = beside.fed_alone(&belt.barriers);
             let geometry = Geometry {
                 beams: belt.barriers,
                 lengths: lengths(&belt.surface, &sizes.each),
                 tolerance: tolerance(&belt.surface, sizes),
                 lane: beside.lane.clone(),
-                fed: beside.fed_alone(&belt.barriers),
-                fed_past: beside.fed_past(&belt.barriers),
+                fed,
+                put_front: beside.fed.filter(|_| fed.is_some()).map(|fed| fed.at + 0.5 * fed.length),
                 hands: beside.hands.clone(),
             };
             run.part_lengths.clone_from(&geometry.lengths);
@@ -136,11 +138,9 @@ fn of_belt(geometry: &Geometry, signals: &[SignalInfo], device: &dyn Device, bes
     let put = if geometry.fed.is_some() { beside.due.as_slice() } else { &[] };
     let ((script, origins), slipped) = reading_with_slip(geometry, tracks, way, put);
     let way = slipped.as_ref().unwrap_or(way);
-    let fed = beside.fed.filter(|_| geometry.fed.is_some());
-    let put_front = fed.map(|fed| fed.at + 0.5 * fed.length);
-    let script = Script { beams: geometry.beams, put_front, put: put.to_vec(), ..script };
+    let put_front = geometry.put_front;
+    let script = Script { beams: geometry.beams, put_front, put: put.to_vec(), way: Arc::new(way.clone()), ..script };
     let script = coming::told_beside(beside, way, script);
-    let script = Script { way: Arc::new(way.clone()), ..script };
     for (place, origins) in places.into_iter().zip(origins) {
         if let Some(track) = place.and_then(|place| run.tracks[place].as_mut()) {
             track.origins = origins;
@@ -256,7 +256,7 @@ fn likeliest_reading(geometry: &Geometry, tracks: [Option<&Track>; 2], travel: &
         read[beam] = Some(&inverted);
         let other = parts::assign(geometry, read, travel);
         let (fitting, all) = counted(&other, beam);
-        let none_fits = || plainly == 0 && parts::is_cut_for_too_long(geometry, track, travel);
+        let none_fits = || plainly == 0 && is_cut_for_too_long(geometry, track, travel);
         let all_fit = fitting >= ENOUGH_WHERE_NONE_FIT && fitting == all;
         if fitting >= ENOUGH.max(FAR_MORE * plainly + 1) || all_fit && none_fits() {
             best = other;
@@ -276,7 +276,7 @@ const APART_M: f64 = 0.15;
 /// while one cut a beam, m, in the mean of all; `None` where there are fewer than three of them.
 fn mismatch((beams, lengths): (&[Option<f64>; 2], &[f64]), tracks: [Option<&Track>; 2], way: &Way) -> Option<f64> {
     const ENOUGH: usize = 3;
-    let instant = |track: &Track, edge: &Edge| way.at(parts::middle(track, edge.index));
+    let instant = |track: &Track, edge: &Edge| way.at(middle(track, edge.index));
     let came = |track: Option<&Track>| -> Vec<f64> {
         let Some(track) = track else { return Vec::new() };
         track.edges.iter().filter(|edge| edge.to != 0.0).map(|edge| instant(track, edge)).collect()
@@ -310,7 +310,7 @@ fn of_pusher(signals: &[SignalInfo], run: &mut Run) -> Script {
         let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
         script.told.push(Told { at: 0.0, what, is_on: track.initial != 0.0 });
         for edge in &track.edges {
-            script.told.push(Told { at: parts::middle(track, edge.index), what, is_on: edge.to != 0.0 });
+            script.told.push(Told { at: middle(track, edge.index), what, is_on: edge.to != 0.0 });
         }
         track.origins = vec![Origin::Input; track.edges.len()];
     }

@@ -69,9 +69,7 @@ impl Way {
         let share = (instant - from) / (to - from).max(1e-12);
         self.metres[after - 1] + share * (self.metres[after] - self.metres[after - 1])
     }
-}
 
-impl Way {
     /// The last instant before `at` at which it still had so much further to go, m; less than 0: so much further back.
     pub fn before(&self, at: f64, metres: f64) -> Option<f64> {
         let (goal, sign) = (self.at(at) - metres, metres.signum());
