@@ -22,6 +22,14 @@ pub const PUT_AT_A_BEAM: &str = "tests/data/belt-whose-parts-are-put-at-a-beam.c
 pub const LATE_GRIPPER: &str = "tests/data/gripper-that-is-switched-on-late.cps.jsonl.zst";
 /// An axis that rubs a little.
 pub const RUBBING_AXIS: &str = "tests/data/axis-that-rubs-a-little.cps.jsonl.zst";
+/// An axis that breaks away at 3.53 N, beside a motor.
+pub const STICKING_AXIS: &str = "tests/data/axis-that-breaks-away.cps.jsonl.zst";
+/// An axis that rubs by 32.5 N·s/m and is pulled by 0.099 N, beside a motor.
+pub const PULLED_AXIS: &str = "tests/data/axis-that-is-pulled-a-little.cps.jsonl.zst";
+/// A pusher whose switch goes off 55 ms late, beside a motor and a gripper.
+pub const OFF_LATE: &str = "tests/data/pusher-whose-switch-goes-off-late.cps.jsonl.zst";
+/// A gripper that leaks, and whose commands jitter by 21 ms, beside a robot.
+pub const LEAKING_GRIPPER: &str = "tests/data/gripper-that-leaks-and-jitters.cps.jsonl.zst";
 /// A robot whose reports are 68 µs late, beside a motor and an axis whose are 532 µs old.
 pub const LATE_ROBOT: &str = "tests/data/robot-whose-reports-are-late.cps.jsonl.zst";
 /// A pusher whose switch at the retracted end is blind over 100 mm and so never comes again, beside a motor and a gripper.

@@ -307,9 +307,24 @@ impl Looks<'_> {
         glance.at_the_best_of(looks)
     }
 
+    /// A candidate of which no slope leads from one number to the next where it costs least about its best starts: each time that a joint lets go is an event of
+    /// its own, and a force that is a twentieth too great or too small costs more than none.
+    fn about(&self, glance: Glance) -> Option<Glance> {
+        const STEP: f64 = 1.03;
+        const STEPS: i32 = 6;
+        if glance.candidate.effect.id != "breakaway-friction" {
+            return Some(glance);
+        }
+        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let starts = [&glance.at].into_iter().chain(&glance.others).map(|start| start[0]);
+        let each = starts.flat_map(|start| (-STEPS..=STEPS).map(move |step| start * STEP.powi(step)));
+        let looks = each.filter_map(|at| self.look(&near, &glance, &[at])).collect();
+        glance.at_the_best_of(looks)
+    }
+
     /// A few steps downhill, and whether that is worth a closer look.
     pub fn fit(&self, glance: Glance) -> Option<Glance> {
-        let glance = self.downhill(self.sharpened(glance)?)?;
+        let glance = self.downhill(self.sharpened(self.about(glance)?)?)?;
         Some(Glance { is_promising: glance.gain > PROMISING * self.excess, ..glance })
     }
 

@@ -11,7 +11,7 @@ use super::candidate::Candidate;
 use super::class::coincidence;
 use super::dropped::{drop_idle, drop_unknown, leave_alone_what_lets_go};
 use super::remainder::{Left, left_by};
-use super::rung::{beneath, rung};
+use super::rung::{beneath, beneath_others, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
 use crate::gap::fit::{Effort, Range, Spread, spread, sum_of_squares};
@@ -196,15 +196,18 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let below = ladder.best.clone();
     let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return Rung::Left };
     let is_evident = |prediction: Arc<Prediction>| evidence_all_along(bench.subject, &prediction) > THRESHOLD;
-    if !below.set.is_empty() && !bench.predict(&below.set, &below.at).is_some_and(is_evident) {
-        return Rung::Left;
-    }
-    let left = left_by(bench, &below, &ladder.bare.at);
+    let mut beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
+    let left = match below.set.is_empty() || bench.predict(&below.set, &below.at).is_some_and(is_evident) {
+        true => left_by(bench, &below, &ladder.bare.at),
+        false => {
+            beneath = beneath_others(bench, &plain, &ladder.bare.at, is_asked).unwrap_or(0.0);
+            if beneath > 0.0 { Left::Much } else { Left::Nothing }
+        }
+    };
     if left == Left::Nothing {
         return Rung::Left;
     }
     let Some(standing) = Standing::of_trial(bench, &plain) else { return Rung::Left };
-    let beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
     let least = if beneath > 0.0 { least_gain(1, 1) } else { least_excess(&plain) };
     if standing.excess(plain.cost).max(beneath) < least {
         return Rung::Left;

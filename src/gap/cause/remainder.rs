@@ -89,7 +89,7 @@ pub fn is_laws_own(subject: &Subject, prediction: &Prediction, gap: &Score) -> b
 }
 
 /// What share of the squares of a signal's gap that is, and how many times as evident it may be.
-const LAWS_OWN: f64 = 2e-4;
+pub const LAWS_OWN: f64 = 2e-4;
 const LAWS_EVIDENCE: f64 = 10.0;
 
 /// What the best answer of a ladder leaves.

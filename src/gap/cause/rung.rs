@@ -20,9 +20,10 @@ use super::glance::{Glance, Looks};
 use super::ladder::{NEAR_THE_BEST, Progress, Standing, Tell, anew};
 use super::library;
 use super::masked::masked;
+use super::remainder::{LAWS_OWN, misfit};
 use super::tangent::Tangent;
 use crate::gap::fit::{Effort, least_squares};
-use crate::gap::{Prediction, Score, Subject};
+use crate::gap::{FAR_BEYOND, Prediction, Score, Subject, THRESHOLD};
 use crate::plant::EffectPlace;
 
 /// Which share of what the most promising one promises a candidate must promise to be fitted, of one parameter and of several.
@@ -155,10 +156,10 @@ const WITNESSES: [&str; 11] = [
     "load-dependent-friction",
 ];
 
-/// What an effect takes away of a device's deviance though nothing that is asked of all motions shows that anything is off: the greatest
-/// gain of the witnesses that promise the most, each fitted with all nominal parameters beside it. `None` where nothing promises as much as
+/// What an effect beside those of `below` takes away of a device's deviance though nothing that is asked of all motions shows that anything is off: the
+/// greatest gain of the witnesses that promise the most, each fitted with all that is free beside it. `None` where nothing promises as much as
 /// `least`.
-pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<f64> {
+pub fn beneath(bench: &Bench<'_>, below: &Trial, least: f64, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<f64> {
     /// The square of a whitened distance that shows clearly: a start that moves the levels by much more says nothing of one.
     const CLEAR: f64 = 1000.0;
     /// What a witness must promise on the first part of the recordings: of those whose part there has a mean of a third of `least` 993 of a thousand do.
@@ -167,22 +168,22 @@ pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&
     const ALIKE: f64 = 0.6;
     /// How many are fitted.
     const FITTED: usize = 3;
-    let prediction = bench.predict(&[], &bare.at)?;
+    let prediction = bench.predict(&below.set, &below.at)?;
     let score = bench.subject.score(&prediction);
     if bench.is_rugged() || !score.are_levels().contains(&true) {
         return None;
     }
-    let tangent = Tangent::new(bench, bare)?;
-    let looks = Looks { bench, below: bare, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true };
+    let tangent = Tangent::new(bench, below)?;
+    let looks = Looks { bench, below, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true };
     let is_asked = |id: &str| is_asked(id) && WITNESSES.contains(&id);
-    let mut library = candidates_beside(bench, bare, (&prediction, &score), &is_asked);
+    let mut library = candidates_beside(bench, below, (&prediction, &score), &is_asked);
     library.retain(|candidate| candidate.place != EffectPlace::ReportLink && candidate.place != EffectPlace::Sensor);
     // Most are seen on the first part of the recordings to promise nothing, where the device moves there as it does later.
     let subject = bench.subject.early(EARLY);
     let there = bench.of_part(&subject);
-    let moves = |bench: &Bench<'_>| Some(bench.moving_blocks(&*bench.predict(&[], &bare.at)?) as f64);
+    let moves = |bench: &Bench<'_>| Some(bench.moving_blocks(&*bench.predict(&below.set, &below.at)?) as f64);
     let is_alike = moves(&there).zip(moves(bench)).is_some_and(|(first, all)| first >= ALIKE * EARLY * all);
-    let first = there.trial(&[], bare.at.clone()).filter(|_| is_alike);
+    let first = there.trial(&below.set, below.at.clone()).filter(|_| is_alike);
     let early = first.as_ref().and_then(|below| {
         let tangent = Tangent::new(&there, below)?;
         Some(Looks { bench: &there, below, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true })
@@ -210,7 +211,7 @@ pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&
         let ranges = bench.ranges(&glance.set);
         let residuals = |at: &[f64]| bench.residuals(&glance.set, at);
         let fitted = least_squares(&residuals, &all, &ranges, anew(all.len()).budget);
-        fitted.is_some_and(|fitted| bare.cost - fitted.cost > least)
+        fitted.is_some_and(|fitted| below.cost - fitted.cost > least)
     };
     let glances: Vec<Glance> = glances.into_par_iter().with_max_len(1).filter(is_kept).collect();
     if glances.is_empty() {
@@ -218,13 +219,26 @@ pub fn beneath(bench: &Bench<'_>, bare: &Trial, least: f64, is_asked: &(dyn Fn(&
     }
     let fit = |set: &[Candidate], at: Vec<f64>| bench.fit(set, std::slice::from_ref(&at), anew(at.len()));
     // An effect is no better for what the nominal parameters alone would do.
-    let without = fit(&[], bare.at.clone()).map_or(bare.cost, |fitted| fitted.cost.min(bare.cost));
+    let without = fit(&below.set, below.at.clone()).map_or(below.cost, |fitted| fitted.cost.min(below.cost));
     let with = glances.par_iter().with_max_len(1).filter_map(|glance| {
         let fitted = fit(&glance.set, looks.all(glance, &glance.at))?;
         let there = bench.predict(&fitted.set, &fitted.at)?;
         bench.differ(&prediction, &there).then_some(fitted.cost)
     });
     Some(without - with.reduce(|| without, f64::min))
+}
+
+/// What another effect takes away beneath what those of `below` leave, which is not evident: where it is far beyond chance, and more of the gap that is there with
+/// the nominal parameters at `bare` than a law may be off by.
+pub fn beneath_others(
+    bench: &Bench<'_>,
+    below: &Trial,
+    bare: &[f64],
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Option<f64> {
+    let gap = misfit(&bench.subject.score(&*bench.predict(&[], bare)?));
+    let least = (FAR_BEYOND * THRESHOLD * below.inflation()).max(LAWS_OWN * gap);
+    beneath(bench, below, least, is_asked).filter(|found| *found > least)
 }
 
 /// All candidates that the library has beside the effects of `below`.

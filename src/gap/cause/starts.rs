@@ -291,6 +291,13 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
             let starts = times(&[0.01, 0.03, 0.1, 0.25, -0.01, -0.03, -0.1, -0.25], unit);
             (range(least.max(-0.9 * unit), greatest.min(2.0 * unit), 0.01 * unit), starts)
         }
+        // Each time that a joint lets go is an event of its own, and no slope leads from one to the next.
+        ("breakaway-friction", _) => {
+            const FINER: f64 = 1.4;
+            let shares =
+                std::iter::successors(Some(1e-4), |share| Some(FINER * share)).take_while(|share| *share < 0.6);
+            (range(least, greatest.min(10.0 * unit), 0.01 * unit), shares.map(|share| share * unit).collect())
+        }
         ("gravity", "angle") => (range(-3.2, 3.2, 0.3), vec![0.0, 1.6, -1.6, 3.1]),
         ("clock-drift", _) => {
             // By the end of a minute a clock that is slow by a thousandth more is late by as much as a short motion takes.

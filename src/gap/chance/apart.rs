@@ -4,8 +4,8 @@
 //! nobody can tell when each of them came. They are left out: a command counts where nothing before it, late as it may have been, changes what
 //! is reported from it on, and the next is given later than it may come.
 
+use super::known::Known;
 use super::late::{MOST_S, Told, count_anew, put_off};
-use crate::gap::overrides::Overrides;
 use crate::gap::prediction::{Predicted, PredictedEdge, Prediction};
 use crate::gap::subject::Subject;
 
@@ -22,18 +22,18 @@ struct Together {
 }
 
 /// Of all that a device was told, in the order of time, what says when it came.
-pub(super) fn apart(subject: &Subject, overrides: &Overrides, told: &[Told]) -> Option<Vec<bool>> {
+pub(super) fn apart(subject: &Subject, known: Known<'_>, told: &[Told]) -> Option<Vec<bool>> {
     let together = together(subject, told);
     let starts: Vec<(usize, f64)> = together.iter().map(|of| (of.run, of.from)).collect();
     let others_late = |turn: usize| {
         let is_late: Vec<bool> =
             together.iter().enumerate().flat_map(|(k, of)| of.places.clone().map(move |_| k % 2 != turn)).collect();
         let late = put_off(subject, told, |at| if is_late[at] { MOST_S } else { 0.0 });
-        let mut prediction = late.predict(&[], overrides).ok()?;
+        let mut prediction = known.predict(&late)?;
         count_anew(&late, &mut prediction, &starts);
         Some(prediction)
     };
-    let mut in_time = subject.predict(&[], overrides).ok()?;
+    let mut in_time = known.predict(subject)?;
     count_anew(subject, &mut in_time, &starts);
     let late = [others_late(0)?, others_late(1)?];
     let mut apart = vec![false; told.len()];
@@ -119,9 +119,9 @@ mod tests {
     fn commands_that_follow_one_another_closely_do_not_say_when_they_came() {
         let study = study(RUBBING_AXIS);
         let place = study.subjects.iter().position(|subject| subject.name == "Motor").expect("it moves");
-        let (subject, overrides) = (&study.subjects[place], &study.bare[place].overrides);
+        let (subject, known) = (&study.subjects[place], Known::bare(&study.bare[place].overrides));
         let told = told(subject);
-        let apart = apart(subject, overrides, &told).expect("predictions");
+        let apart = apart(subject, known, &told).expect("predictions");
         let nearest = |at: f64| {
             let others = told.iter().map(|other| (other.at - at).abs()).filter(|apart| *apart > 0.0);
             others.fold(f64::INFINITY, f64::min)

@@ -10,9 +10,9 @@
 use rayon::prelude::*;
 
 use super::apart::{apart, seen};
+use super::known::Known;
 use crate::gap::cause::Bounds;
 use crate::gap::cost::normal;
-use crate::gap::overrides::Overrides;
 use crate::gap::prediction::{Predicted, Prediction};
 use crate::gap::statistics::rank_correlation;
 use crate::gap::subject::Subject;
@@ -77,6 +77,24 @@ impl Delay {
     }
 }
 
+/// What a device costs, and how much of that is above its floor.
+#[derive(Clone, Copy, Debug)]
+struct Cost {
+    all: f64,
+    above: f64,
+}
+
+impl Cost {
+    fn least(self, other: Cost) -> Cost {
+        if other.all < self.all { other } else { self }
+    }
+
+    /// Whether so little is left beside what was, `before`: thousands of samples of a level cost what they cost, however late the commands are.
+    fn is_worth_a_look(self, before: Cost) -> bool {
+        self.all <= WORTH_A_LOOK * before.all || self.above.max(0.0) <= WORTH_A_LOOK * before.above
+    }
+}
+
 /// The delays of all commands of a device.
 #[derive(Clone)]
 pub(super) struct Late<'a> {
@@ -90,65 +108,58 @@ pub(super) struct Late<'a> {
 
 impl<'a> Late<'a> {
     /// The delays of a device's commands as its recordings show them; `None` where one delay does as well, or none does better.
-    pub fn of(subject: &Subject, overrides: &Overrides, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Option<Late<'a>> {
-        let mut late = Late::in_time(subject, overrides, is_stopped)?;
+    pub fn of(subject: &Subject, known: Known<'_>, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Option<Late<'a>> {
+        let mut late = Late::in_time(subject, known, is_stopped)?;
         if late.apart.iter().filter(|is_apart| **is_apart).count() < ENOUGH {
             return None;
         }
         let mut same = late.clone();
         let none = late.clone();
-        late.look(subject, overrides)?;
-        late.ports().iter().try_for_each(|port| same.try_same(subject, overrides, *port))?;
-        let [own, same, none] = [&late, &same, &none].map(|late| late.cost(subject, overrides));
-        if own? > WORTH_A_LOOK * none?.min(same?) {
+        late.look(subject, known)?;
+        late.ports().iter().try_for_each(|port| same.try_same(subject, known, *port))?;
+        let [own, same, none] = [&late, &same, &none].map(|late| late.cost(subject, known));
+        let (own, least) = (own?, none?.least(same?));
+        if !own.is_worth_a_look(least) {
             return None;
         }
-        late.again(subject, overrides)?;
+        late.again(subject, known)?;
         Some(late)
     }
 
     /// The same of a device whose commands are known to come late.
-    pub fn known(
-        subject: &Subject,
-        overrides: &Overrides,
-        is_stopped: &'a (dyn Fn() -> bool + Sync),
-    ) -> Option<Late<'a>> {
-        let mut late = Late::in_time(subject, overrides, is_stopped)?;
-        late.look(subject, overrides)?;
-        late.again(subject, overrides)?;
+    pub fn known(subject: &Subject, known: Known<'_>, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Option<Late<'a>> {
+        let mut late = Late::in_time(subject, known, is_stopped)?;
+        late.look(subject, known)?;
+        late.again(subject, known)?;
         Some(late)
     }
 
     /// All of a device's commands when they were given.
-    fn in_time(
-        subject: &Subject,
-        overrides: &Overrides,
-        is_stopped: &'a (dyn Fn() -> bool + Sync),
-    ) -> Option<Late<'a>> {
+    fn in_time(subject: &Subject, known: Known<'_>, is_stopped: &'a (dyn Fn() -> bool + Sync)) -> Option<Late<'a>> {
         let told = told(subject);
-        let apart = apart(subject, overrides, &told)?;
+        let apart = apart(subject, known, &told)?;
         Some(Late { delays: vec![Delay::default(); told.len()], told, apart, is_stopped })
     }
 
     /// Looks for the delay of each command.
-    fn look(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
+    fn look(&mut self, subject: &Subject, known: Known<'_>) -> Option<()> {
         let ports = self.ports();
         // What a port's commands have nothing to do with costs the same with all delays.
-        ports.iter().try_for_each(|port| self.try_all(subject, overrides, *port))?;
-        self.nearer(subject, overrides)
+        ports.iter().try_for_each(|port| self.try_all(subject, known, *port))?;
+        self.nearer(subject, known)
     }
 
     /// Looks for the delays anew from where they are, beside these nominal parameters.
-    pub fn again(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
+    pub fn again(&mut self, subject: &Subject, known: Known<'_>) -> Option<()> {
         let ports = self.ports();
         let mut looks = ports.iter().cycle().take(LOOKS * ports.len());
-        looks.try_for_each(|port| self.look_again(subject, overrides, *port))?;
-        self.nearer(subject, overrides)
+        looks.try_for_each(|port| self.look_again(subject, known, *port))?;
+        self.nearer(subject, known)
     }
 
     /// Moves the delays on from where they are, beside these nominal parameters.
-    fn nearer(&mut self, subject: &Subject, overrides: &Overrides) -> Option<()> {
-        self.ports().iter().try_for_each(|port| self.come_nearer(subject, overrides, *port))
+    fn nearer(&mut self, subject: &Subject, known: Known<'_>) -> Option<()> {
+        self.ports().iter().try_for_each(|port| self.come_nearer(subject, known, *port))
     }
 
     fn ports(&self) -> Vec<usize> {
@@ -164,9 +175,9 @@ impl<'a> Late<'a> {
     }
 
     /// A device as far as its commands say when they came.
-    pub fn seen(subject: &Subject, overrides: &Overrides) -> Option<Subject> {
+    pub fn seen(subject: &Subject, known: Known<'_>) -> Option<Subject> {
         let told = told(subject);
-        Some(seen(subject, &told, &apart(subject, overrides, &told)?))
+        Some(seen(subject, &told, &apart(subject, known, &told)?))
     }
 
     /// The deviation of the normal distribution whose absolute values the delays are, s, with its interval of 95 %; `None` where they
@@ -184,8 +195,8 @@ impl<'a> Late<'a> {
     }
 
     /// Gives each command of a port the best of all delays that are tried.
-    fn try_all(&mut self, subject: &Subject, overrides: &Overrides, port: usize) -> Option<()> {
-        let cost = |by: &f64| self.costs(subject, overrides, port, |_| *by);
+    fn try_all(&mut self, subject: &Subject, known: Known<'_>, port: usize) -> Option<()> {
+        let cost = |by: &f64| self.costs(subject, known, port, |_| *by);
         let costs: Vec<Vec<f64>> = tried().par_iter().map(cost).collect::<Option<_>>()?;
         for (place, at) in self.of_port(port).collect::<Vec<_>>().into_iter().enumerate() {
             let along: Vec<f64> = costs.iter().map(|costs| costs[place]).collect();
@@ -195,8 +206,8 @@ impl<'a> Late<'a> {
     }
 
     /// Gives all commands of a port the delay that is the best for all of them.
-    fn try_same(&mut self, subject: &Subject, overrides: &Overrides, port: usize) -> Option<()> {
-        let cost = |by: f64| Some(self.costs(subject, overrides, port, |_| by)?.iter().sum::<f64>());
+    fn try_same(&mut self, subject: &Subject, known: Known<'_>, port: usize) -> Option<()> {
+        let cost = |by: f64| Some(self.costs(subject, known, port, |_| by)?.iter().sum::<f64>());
         let costs: Vec<f64> = tried().par_iter().map(|by| cost(*by)).collect::<Option<_>>()?;
         let (Delay { mut by, .. }, mut least) = best(&costs);
         let mut step = STEP_S;
@@ -217,16 +228,16 @@ impl<'a> Late<'a> {
 
     /// Tries all delays anew of each second command of a port, and then of the others, by what it and its next cost: where a command
     /// comes shows in how far the next has to go.
-    fn look_again(&mut self, subject: &Subject, overrides: &Overrides, port: usize) -> Option<()> {
+    fn look_again(&mut self, subject: &Subject, known: Known<'_>, port: usize) -> Option<()> {
         let own: Vec<usize> = self.of_port(port).collect();
         for turn in 0..2 {
             let is_meant = |place: usize| place % 2 == turn;
             let moved: Vec<bool> =
                 (0..self.told.len()).map(|at| own.iter().position(|of| *of == at).is_some_and(is_meant)).collect();
             let cost =
-                |by: &f64| self.costs(subject, overrides, port, |at| if moved[at] { *by } else { self.delays[at].by });
+                |by: &f64| self.costs(subject, known, port, |at| if moved[at] { *by } else { self.delays[at].by });
             let costs: Vec<Vec<f64>> = tried().par_iter().map(cost).collect::<Option<_>>()?;
-            let now = self.costs(subject, overrides, port, |at| self.delays[at].by)?;
+            let now = self.costs(subject, known, port, |at| self.delays[at].by)?;
             let both = |costs: &[f64], place: usize| costs[place] + costs.get(place + 1).unwrap_or(&0.0);
             for place in (0..own.len()).filter(|place| is_meant(*place)) {
                 let along: Vec<f64> = costs.iter().map(|costs| both(costs, place)).collect();
@@ -240,11 +251,11 @@ impl<'a> Late<'a> {
     }
 
     /// Moves the delays of a port's commands by halves to where each costs the least.
-    fn come_nearer(&mut self, subject: &Subject, overrides: &Overrides, port: usize) -> Option<()> {
+    fn come_nearer(&mut self, subject: &Subject, known: Known<'_>, port: usize) -> Option<()> {
         let mut step = STEP_S;
         for _ in 0..HALVINGS {
             step *= 0.5;
-            let moved = |by: f64| self.costs(subject, overrides, port, |at| (self.delays[at].by + by).max(0.0));
+            let moved = |by: f64| self.costs(subject, known, port, |at| (self.delays[at].by + by).max(0.0));
             let [here, sooner, later] = [moved(0.0)?, moved(-step)?, moved(step)?];
             for (place, at) in self.of_port(port).collect::<Vec<_>>().into_iter().enumerate() {
                 let by = match here[place].min(sooner[place]).min(later[place]) {
@@ -265,28 +276,24 @@ impl<'a> Late<'a> {
     }
 
     /// What the device costs with these delays, counters begun anew at each command.
-    fn cost(&self, subject: &Subject, overrides: &Overrides) -> Option<f64> {
+    fn cost(&self, subject: &Subject, known: Known<'_>) -> Option<Cost> {
         let late = self.put_off(subject);
-        let mut prediction = late.predict(&[], overrides).ok()?;
+        let mut prediction = known.predict(&late)?;
         let starts: Vec<(usize, f64)> = self.told.iter().map(|told| (told.run, told.at)).collect();
         count_anew(&late, &mut prediction, &starts);
-        Some(late.score(&prediction).total)
+        let score = late.score(&prediction);
+        let floor = score.signals.iter().map(|signal| signal.floor_cost.0).sum::<f64>();
+        Some(Cost { all: score.total, above: score.total - floor })
     }
 
     /// What each command of a port costs until its next, those of the port coming late by `by`, all others as they do.
-    fn costs(
-        &self,
-        subject: &Subject,
-        overrides: &Overrides,
-        port: usize,
-        by: impl Fn(usize) -> f64,
-    ) -> Option<Vec<f64>> {
+    fn costs(&self, subject: &Subject, known: Known<'_>, port: usize, by: impl Fn(usize) -> f64) -> Option<Vec<f64>> {
         if (self.is_stopped)() {
             return None;
         }
         let by = |at: usize| if self.told[at].port == port { by(at) } else { self.delays[at].by };
         let late = put_off(subject, &self.told, by);
-        let mut prediction = late.predict(&[], overrides).ok()?;
+        let mut prediction = known.predict(&late)?;
         let starts: Vec<(usize, f64)> = self.of_port(port).map(|at| (self.told[at].run, self.told[at].at)).collect();
         count_anew(&late, &mut prediction, &starts);
         let mut costs = vec![0.0; starts.len()];

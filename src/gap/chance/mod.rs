@@ -10,6 +10,7 @@
 
 mod apart;
 mod itself;
+mod known;
 mod late;
 mod read;
 mod scatter;
@@ -27,6 +28,7 @@ use super::study::Study;
 use super::subject::{Subject, Timing};
 use crate::effect::EFFECTS;
 use crate::plant::{EffectPlace, EffectSpec};
+use known::Known;
 use late::Late;
 use read::{Law, Reading};
 use steps::Steps;
@@ -74,7 +76,7 @@ impl Chance {
     /// Another recording of the device as it would be judged without the effect.
     pub fn judged_without(&self, subject: &Subject) -> Option<Subject> {
         if matches!(self.drawn, Drawn::Late) {
-            return Late::seen(subject, &self.bare.overrides);
+            return Late::seen(subject, Known::bare(&self.bare.overrides));
         }
         let Drawn::In(steps) = self.drawn else { return None };
         let mut other = subject.clone();
@@ -86,12 +88,12 @@ impl Chance {
 
     /// Another recording of the device without what was drawn there, its effects and its nominal parameters as `specs` and `overrides` say.
     pub fn taken_out(&self, subject: &Subject, specs: &[EffectSpec], overrides: &Overrides) -> Option<Subject> {
+        if matches!(self.drawn, Drawn::Late) {
+            return Some(Late::known(subject, Known { specs, overrides }, &|| false)?.put_off(subject));
+        }
         let specs = if matches!(self.drawn, Drawn::Beside(_)) { specs } else { &[] };
         let prediction = subject.predict(specs, overrides).ok()?;
         let mut other = subject.clone();
-        if matches!(self.drawn, Drawn::Late) {
-            return Some(Late::known(subject, overrides, &|| false)?.put_off(subject));
-        }
         if let Drawn::ByItself(law) = self.drawn {
             Readings::by_themselves(subject, &prediction, law).take_out_of_all(&mut other);
             return Some(other);
@@ -117,13 +119,17 @@ impl Chance {
     }
 }
 
+/// Whether an effect, by its id, is looked for, and whether the answer is wanted now.
+type IsAsked<'a> = dyn Fn(&str) -> bool + Sync + 'a;
+type IsStopped<'a> = dyn Fn() -> bool + Sync + 'a;
+
 /// What was drawn of a device beside what `specs` and `overrides` predict of it: of what was `found` by itself, which was seen only where the device moved on
 /// and on, or, where nothing was, what those effects leave.
 pub fn beside(
     (subject, bare): (&Subject, &Bare),
     (specs, overrides): (&[EffectSpec], &Overrides),
     found: Option<&Chance>,
-    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    (is_asked, is_stopped): (&IsAsked<'_>, &IsStopped<'_>),
 ) -> Option<Chance> {
     let prediction = subject.predict(specs, overrides).ok()?;
     let all = 0..subject.signals.len();
@@ -131,7 +137,16 @@ pub fn beside(
     let law = match found.map(|found| found.drawn) {
         Some(Drawn::ByItself(law)) => law,
         Some(_) => return None,
-        None => [Law::Away, Law::Lost].into_iter().find(shown)?,
+        None => match [Law::Away, Law::Lost].into_iter().find(shown) {
+            Some(law) => law,
+            None if is_asked(JITTER) => {
+                // What commands are late by on average was taken for a delay.
+                let others: Vec<EffectSpec> = specs.iter().filter(|spec| !delays(spec)).cloned().collect();
+                let beside = |specs: &[EffectSpec]| late_beside(subject, bare, Known { specs, overrides }, is_stopped);
+                return beside(&others).or_else(|| (others.len() < specs.len()).then(|| beside(specs)).flatten());
+            }
+            None => return None,
+        },
     };
     let readings = match (law, found) {
         (Law::Away, Some(found)) => Readings::of(subject, &prediction, found.signals.iter().copied(), law, false),
@@ -145,6 +160,15 @@ pub fn beside(
     let (other, bare) = without(other, bare, Some(&prediction))?;
     let anew = readings.named((subject, other, bare), Drawn::Beside(law))?;
     Some(Chance { beside: found.and_then(|found| found.beside.clone()), ..anew })
+}
+
+/// The id of what commands that come late by times of their own show.
+const JITTER: &str = "sampling-jitter";
+
+/// Whether an effect delays what a device is told, or all that it says.
+fn delays(spec: &EffectSpec) -> bool {
+    const DELAYS: [&str; 4] = ["dead-time", "first-order-lag", "input-filter", "stale-hold"];
+    DELAYS.contains(&spec.kind.as_str())
 }
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
@@ -172,9 +196,8 @@ pub fn find(
     let by_reading = || laws.iter().find_map(|law| taken_out(subject, bare, before, *law, is_asked));
     let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
     // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
-    let found = found.or_else(|| {
-        if has_gap && is_asked("sampling-jitter") { late(subject, bare, before, is_stopped) } else { None }
-    });
+    let found =
+        found.or_else(|| if has_gap && is_asked(JITTER) { late(subject, bare, before, is_stopped) } else { None });
     let by_itself = || laws.iter().find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
     let found = found.or_else(by_reading).or_else(|| if has_gap { by_itself() } else { None });
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
@@ -347,7 +370,7 @@ fn taken_out_by_itself(
 
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
 fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<Chance> {
-    let mut late = Late::of(subject, &bare.overrides, is_stopped)?;
+    let mut late = Late::of(subject, Known::bare(&bare.overrides), is_stopped)?;
     let anew = |late: &Late, bare: &Bare| {
         let mut other = late.put_off(subject);
         let nominal = other.predict(&[], &Overrides::none()).ok()?;
@@ -360,14 +383,34 @@ fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> b
         if evidence(&other, &bare.prediction) <= THRESHOLD {
             break;
         }
-        late.again(subject, &bare.overrides)?;
+        late.again(subject, Known::bare(&bare.overrides))?;
         (other, bare) = anew(&late, &bare)?;
     }
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
         return None;
     }
+    jittering(subject, (other, bare), &late)
+}
+
+/// The device without what its commands came late by, beside the effects that are `known` of it, whatever they leave.
+fn late_beside(
+    subject: &Subject,
+    bare: &Bare,
+    known: Known<'_>,
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Chance> {
+    let late = Late::of(subject, known, is_stopped)?;
+    late.sigma()?;
+    let mut other = late.put_off(subject);
+    let nominal = other.predict(&[], &Overrides::none()).ok()?;
+    let bare = fitted(&mut other, bare, &nominal);
+    jittering(subject, (other, bare), &late)
+}
+
+/// A link that jitters: the device of `subject` with its commands when they came.
+fn jittering(subject: &Subject, (other, bare): (Subject, Bare), late: &Late<'_>) -> Option<Chance> {
     let bounds = vec![late.sigma()?];
-    let candidate = candidate("sampling-jitter", EffectPlace::CommandLink, None, &["sigma"], &bounds)?;
+    let candidate = candidate(JITTER, EffectPlace::CommandLink, None, &["sigma"], &bounds)?;
     let misfit = misfit(&subject.score(&subject.predict(&[], &bare.overrides).ok()?));
     Some(Chance {
         candidate,
@@ -537,7 +580,7 @@ mod tests {
                 *value = if info.is_count { late.floor() } else { *value - in_time + late };
             }
         }
-        let chance = find(place, &study, &|id| id == "sampling-jitter", &|| false).expect("jitter");
+        let chance = find(place, &study, &|id| id == JITTER, &|| false).expect("jitter");
         let [least, most] = chance.bounds[0].interval;
         assert!(least < 0.03 && 0.03 < most, "{:?}", chance.bounds);
     }
@@ -560,11 +603,13 @@ mod tests {
             parameters: [("gain".to_owned(), crate::plant::ParameterValue::Number(1.2))].into(),
         };
         let gains = ["encoder", "speedActual"].map(gain);
-        let again = beside((subject, bare), (&gains, &bare.overrides), Some(&chance), &|_| true).expect("all of them");
+        let again = beside((subject, bare), (&gains, &bare.overrides), Some(&chance), (&|_| true, &|| false))
+            .expect("all of them");
         let [least, most] = again.bounds[0].interval;
         assert!((least..=most).contains(&0.2), "{:?}", again.bounds);
         // They show it though nothing was found before.
-        let shown = beside((subject, bare), (&gains, &bare.overrides), None, &|_| true).expect("all of them");
+        let shown =
+            beside((subject, bare), (&gains, &bare.overrides), None, (&|_| true, &|| false)).expect("all of them");
         assert_eq!(shown.bounds[0].value, again.bounds[0].value);
         let (study, place) = with_lost_reports(true);
         assert!(find(place, &study, &|id| id == "lost-messages", &|| false).is_none());
