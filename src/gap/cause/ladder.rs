@@ -196,13 +196,15 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let below = ladder.best.clone();
     let Some(plain) = bench.trial(&below.set, below.at.clone()) else { return Rung::Left };
     let is_evident = |prediction: Arc<Prediction>| evidence_all_along(bench.subject, &prediction) > THRESHOLD;
-    let mut beneath = if below.set.is_empty() { ladder.beneath } else { 0.0 };
-    let left = match below.set.is_empty() || bench.predict(&below.set, &below.at).is_some_and(is_evident) {
-        true => left_by(bench, &below, &ladder.bare.at),
-        false => {
-            beneath = beneath_others(bench, &plain, &ladder.bare.at, is_asked).unwrap_or(0.0);
-            if beneath > 0.0 { Left::Much } else { Left::Nothing }
+    let (left, beneath) = match () {
+        () if below.set.is_empty() => (Left::Much, ladder.beneath),
+        () if bench.predict(&below.set, &below.at).is_some_and(is_evident) => {
+            (left_by(bench, &below, &ladder.bare.at), 0.0)
         }
+        () => match beneath_others(bench, &plain, &ladder.bare.at, is_asked) {
+            Some(found) => (Left::Much, found),
+            None => (Left::Nothing, 0.0),
+        },
     };
     if left == Left::Nothing {
         return Rung::Left;

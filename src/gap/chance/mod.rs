@@ -119,17 +119,13 @@ impl Chance {
     }
 }
 
-/// Whether an effect, by its id, is looked for, and whether the answer is wanted now.
-type IsAsked<'a> = dyn Fn(&str) -> bool + Sync + 'a;
-type IsStopped<'a> = dyn Fn() -> bool + Sync + 'a;
-
 /// What was drawn of a device beside what `specs` and `overrides` predict of it: of what was `found` by itself, which was seen only where the device moved on
 /// and on, or, where nothing was, what those effects leave.
 pub fn beside(
     (subject, bare): (&Subject, &Bare),
     (specs, overrides): (&[EffectSpec], &Overrides),
     found: Option<&Chance>,
-    (is_asked, is_stopped): (&IsAsked<'_>, &IsStopped<'_>),
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
 ) -> Option<Chance> {
     let prediction = subject.predict(specs, overrides).ok()?;
     let all = 0..subject.signals.len();
@@ -137,16 +133,7 @@ pub fn beside(
     let law = match found.map(|found| found.drawn) {
         Some(Drawn::ByItself(law)) => law,
         Some(_) => return None,
-        None => match [Law::Away, Law::Lost].into_iter().find(shown) {
-            Some(law) => law,
-            None if is_asked(JITTER) => {
-                // What commands are late by on average was taken for a delay.
-                let others: Vec<EffectSpec> = specs.iter().filter(|spec| !delays(spec)).cloned().collect();
-                let beside = |specs: &[EffectSpec]| late_beside(subject, bare, Known { specs, overrides }, is_stopped);
-                return beside(&others).or_else(|| (others.len() < specs.len()).then(|| beside(specs)).flatten());
-            }
-            None => return None,
-        },
+        None => [Law::Away, Law::Lost].into_iter().find(shown)?,
     };
     let readings = match (law, found) {
         (Law::Away, Some(found)) => Readings::of(subject, &prediction, found.signals.iter().copied(), law, false),
@@ -162,13 +149,33 @@ pub fn beside(
     Some(Chance { beside: found.and_then(|found| found.beside.clone()), ..anew })
 }
 
-/// The id of what commands that come late by times of their own show.
+/// What commands that come late by times of their own show.
 const JITTER: &str = "sampling-jitter";
 
-/// Whether an effect delays what a device is told, or all that it says.
+/// Whether an effect delays what a device is told, or what it says.
 fn delays(spec: &EffectSpec) -> bool {
     const DELAYS: [&str; 4] = ["dead-time", "first-order-lag", "input-filter", "stale-hold"];
     DELAYS.contains(&spec.kind.as_str())
+}
+
+/// What commands of a device came late by beside what `specs` and `overrides` predict of it, whatever that leaves: beside those effects that are no delays, as one
+/// may be what commands are late by on average, or beside all.
+pub fn late_beside(
+    (subject, bare): (&Subject, &Bare),
+    (specs, overrides): (&[EffectSpec], &Overrides),
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Chance> {
+    if !is_asked(JITTER) {
+        return None;
+    }
+    let beside = |specs: &[EffectSpec]| {
+        let late = Late::of(subject, Known { specs, overrides }, is_stopped)?;
+        let sigma = late.sigma()?;
+        jittering(subject, put_off(subject, bare, &late)?, sigma)
+    };
+    let others: Vec<EffectSpec> = specs.iter().filter(|spec| !delays(spec)).cloned().collect();
+    beside(&others).or_else(|| if others.len() < specs.len() { beside(specs) } else { None })
 }
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
@@ -371,45 +378,32 @@ fn taken_out_by_itself(
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
 fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<Chance> {
     let mut late = Late::of(subject, Known::bare(&bare.overrides), is_stopped)?;
-    let anew = |late: &Late, bare: &Bare| {
-        let mut other = late.put_off(subject);
-        let nominal = other.predict(&[], &Overrides::none()).ok()?;
-        let bare = fitted(&mut other, bare, &nominal);
-        Some((other, bare))
-    };
-    let (mut other, mut bare) = anew(&late, bare)?;
+    let (mut other, mut bare) = put_off(subject, bare, &late)?;
     // What commands that came late had made of the nominal parameters is undone by and by.
     for _ in 0..ROUNDS {
         if evidence(&other, &bare.prediction) <= THRESHOLD {
             break;
         }
         late.again(subject, Known::bare(&bare.overrides))?;
-        (other, bare) = anew(&late, &bare)?;
+        (other, bare) = put_off(subject, &bare, &late)?;
     }
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
         return None;
     }
-    jittering(subject, (other, bare), &late)
+    jittering(subject, (other, bare), late.sigma()?)
 }
 
-/// The device without what its commands came late by, beside the effects that are `known` of it, whatever they leave.
-fn late_beside(
-    subject: &Subject,
-    bare: &Bare,
-    known: Known<'_>,
-    is_stopped: &(dyn Fn() -> bool + Sync),
-) -> Option<Chance> {
-    let late = Late::of(subject, known, is_stopped)?;
-    late.sigma()?;
+/// The device with its commands when they came, its nominal parameters found anew.
+fn put_off(subject: &Subject, bare: &Bare, late: &Late<'_>) -> Option<(Subject, Bare)> {
     let mut other = late.put_off(subject);
     let nominal = other.predict(&[], &Overrides::none()).ok()?;
     let bare = fitted(&mut other, bare, &nominal);
-    jittering(subject, (other, bare), &late)
+    Some((other, bare))
 }
 
-/// A link that jitters: the device of `subject` with its commands when they came.
-fn jittering(subject: &Subject, (other, bare): (Subject, Bare), late: &Late<'_>) -> Option<Chance> {
-    let bounds = vec![late.sigma()?];
+/// A link of `subject` that jitters by `sigma`; beside it the device with its commands when they came.
+fn jittering(subject: &Subject, (other, bare): (Subject, Bare), sigma: Bounds) -> Option<Chance> {
+    let bounds = vec![sigma];
     let candidate = candidate(JITTER, EffectPlace::CommandLink, None, &["sigma"], &bounds)?;
     let misfit = misfit(&subject.score(&subject.predict(&[], &bare.overrides).ok()?));
     Some(Chance {
@@ -603,13 +597,11 @@ mod tests {
             parameters: [("gain".to_owned(), crate::plant::ParameterValue::Number(1.2))].into(),
         };
         let gains = ["encoder", "speedActual"].map(gain);
-        let again = beside((subject, bare), (&gains, &bare.overrides), Some(&chance), (&|_| true, &|| false))
-            .expect("all of them");
+        let again = beside((subject, bare), (&gains, &bare.overrides), Some(&chance), &|_| true).expect("all of them");
         let [least, most] = again.bounds[0].interval;
         assert!((least..=most).contains(&0.2), "{:?}", again.bounds);
         // They show it though nothing was found before.
-        let shown =
-            beside((subject, bare), (&gains, &bare.overrides), None, (&|_| true, &|| false)).expect("all of them");
+        let shown = beside((subject, bare), (&gains, &bare.overrides), None, &|_| true).expect("all of them");
         assert_eq!(shown.bounds[0].value, again.bounds[0].value);
         let (study, place) = with_lost_reports(true);
         assert!(find(place, &study, &|id| id == "lost-messages", &|| false).is_none());

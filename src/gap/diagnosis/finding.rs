@@ -135,12 +135,11 @@ fn read_again(
     if best.set.is_empty() || known.is_none() && explains_all(finding) {
         return None;
     }
-    let chance = chance::beside(
-        (subject, bare),
-        (&best.specs(), &best.overrides),
-        known,
-        (options.is_asked, options.is_stopped),
-    )?;
+    let specs = best.specs();
+    let (device, found) = ((subject, bare), (specs.as_slice(), &best.overrides));
+    let late = || chance::late_beside(device, found, options.is_asked, options.is_stopped);
+    let chance = chance::beside(device, found, known, options.is_asked);
+    let chance = chance.or_else(|| if known.is_none() { late() } else { None })?;
     let anew = conclude(finding.subject, (subject, bare), Some(Arc::new(chance)), study, options)?;
     (known.is_some() || explains_all(&anew)).then_some(anew)
 }
