@@ -199,7 +199,8 @@ impl Plant {
     pub fn advance(&mut self, now: f64, span: f64) {
         self.moving.clear();
         self.moving.extend(self.devices.iter().map(|(_, device)| device.moving()));
-        if self.moved.last().is_none_or(|(_, last)| *last != self.moving) {
+        // Element by element: of so few a call that compares memory costs more than all else here.
+        if self.moved.last().is_none_or(|(_, last)| !last.iter().eq(&self.moving)) {
             self.moved.push((now - span, self.moving.clone()));
         }
         let own: usize = self.moving.iter().sum();

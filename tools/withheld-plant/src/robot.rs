@@ -128,6 +128,9 @@ impl Axis {
     }
 
     fn advance(&mut self, span: f64) {
+        if self.rests() {
+            return;
+        }
         let mut left = span;
         while left > 0.0 {
             let Some((piece, acceleration)) = self.plan.front_mut() else { break };
@@ -145,6 +148,12 @@ impl Axis {
         }
         self.shaft = self.follower.follow(span, self.gain * self.position, self.gain * self.speed);
         self.train.advance(span, self.shaft.0, self.shaft.1);
+    }
+
+    /// Whether another step would change nothing: it has come to its target, and nothing follows it or stands between it and its load.
+    fn rests(&self) -> bool {
+        let at_once = matches!(self.follower, Follower::AtOnce);
+        at_once && self.plan.is_empty() && self.shaft.1 == 0.0 && self.train.rests_at(self.shaft.0)
     }
 
     fn has_arrived(&self) -> bool {

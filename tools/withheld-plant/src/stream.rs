@@ -214,11 +214,19 @@ impl Stream {
         let keep = (-FINE / time).exp();
         let mut out = Stream::new(false);
         let mut y = self.at(0.0);
-        for k in 0..=(end / FINE) as usize {
+        let mut after = 0;
+        let steps = (end / FINE) as usize;
+        out.points.reserve(steps + 1);
+        for k in 0..=steps {
             let at = k as f64 * FINE;
             out.points.push((at, y));
             // Held commands jump; in the middle of the step the new value stands.
-            y = self.at(at + 0.5 * FINE) + (y - self.at(at + 0.5 * FINE)) * keep;
+            let middle = at + 0.5 * FINE;
+            while self.points.get(after).is_some_and(|(time, _)| *time <= middle) {
+                after += 1;
+            }
+            let there = self.before(after, middle);
+            y = there + (y - there) * keep;
         }
         out
     }
