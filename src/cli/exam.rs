@@ -41,6 +41,9 @@ pub struct ExamArguments {
     /// The key of the answers [default: DIR.key]
     #[arg(long, value_name = "FILE")]
     pub key: Option<PathBuf>,
+    /// The exam.json of another sitting, with other machines, whose cases are counted with these; may be given several times
+    #[arg(long, value_name = "FILE")]
+    pub with: Vec<PathBuf>,
     /// What the rates must reach, as JSON: {"single_right": {"at_least": 0.5}, "false_alarm": {"at_most": 0}}
     #[arg(long, value_name = "FILE")]
     pub floor: Option<PathBuf>,
@@ -61,6 +64,7 @@ Examples:
   withheld-plant cases short --exam short
   kinetwin gap exam short --jobs 2
   kinetwin gap exam short --jobs 2 --resume
+  kinetwin gap exam second --jobs 2 --with first-reports/exam.json
 
 Exit codes:
   0  every case was judged; with --floor, no rate is below its floor, whether each case was or not
@@ -80,6 +84,7 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
         arguments.folder.with_file_name(name)
     });
     let floor = arguments.floor.as_deref().map(floor).transpose()?;
+    let earlier = arguments.with.iter().map(|path| sitting(path)).collect::<Result<Vec<Exam>, _>>()?;
     let cases = sealed_answers::cases(&arguments.folder).map_err(|error| Failure::of(&error))?;
     if cases.is_empty() {
         let folder = arguments.folder.display();
@@ -102,6 +107,7 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
     ask_oracles(arguments, &out, &answers)?;
     let (judged, failed) = score(&out, &cases, &answers);
     let exam = Exam::new(seed, opened_on(&out)?, judged, failed);
+    let exam = exam.with(earlier).map_err(|error| Failure(format!("error: another sitting {error}")))?;
     tell(arguments, &out, &exam)?;
     let is_fine = match floor {
         None => exam.failed.is_empty(),
@@ -119,6 +125,13 @@ fn floor(path: &Path) -> Result<Floor, Failure> {
     let failed = |error: &dyn std::fmt::Display| Failure(format!("error: {}: {error}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| failed(&error))?;
     Floor::from_json(&text).map_err(|error| failed(&error))
+}
+
+/// Reads an exam that was taken in another sitting.
+fn sitting(path: &Path) -> Result<Exam, Failure> {
+    let failed = |error: &dyn std::fmt::Display| Failure(format!("error: {}: {error}", path.display()));
+    let text = std::fs::read_to_string(path).map_err(|error| failed(&error))?;
+    Exam::of_sitting(&text).map_err(|error| failed(&error))
 }
 
 /// The file that a case was answered with.

@@ -11,6 +11,7 @@ mod floor;
 mod judge;
 mod page;
 mod rates;
+mod sittings;
 mod target;
 mod whole;
 
@@ -23,5 +24,6 @@ pub use floor::Floor;
 pub use judge::{Judged, judge, unanswered};
 pub use page::page;
 pub use rates::{Rate, Rates, Shown};
+pub use sittings::{Sitting, SittingError};
 pub use target::{Reached, Target};
 pub use whole::{Exam, Groups, Spread};

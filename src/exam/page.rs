@@ -19,10 +19,8 @@ pub fn page(exam: &Exam) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>Exam of the diagnosis</title>\n\
          <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>Exam of the diagnosis</h1>\n\
-         <p>{} cases, answers opened on {}, seed {}.{}</p>\n",
-        exam.cases,
-        exam.date,
-        exam.seed,
+         <p>{}.{}</p>\n",
+        taken(exam),
         exam.seconds_per_case.map_or(String::new(), |seconds| format!(" A case took {seconds:.1} s on average."))
     );
     rates(exam, &mut page);
@@ -42,6 +40,16 @@ pub fn page(exam: &Exam) -> String {
     cases(exam, &mut page);
     page.push_str("</body>\n</html>\n");
     page
+}
+
+/// How many cases it has, and when and of which seed they were opened.
+fn taken(exam: &Exam) -> String {
+    let Exam { cases, date, seed, sittings, .. } = exam;
+    if sittings.is_empty() {
+        return format!("{cases} cases, answers opened on {date}, seed {seed}");
+    }
+    let each = sittings.iter().map(|of| format!("{} on {}, seed {}", of.cases, of.date, of.seed));
+    format!("{cases} cases in {} sittings, answers opened: {}", sittings.len(), each.collect::<Vec<_>>().join("; "))
 }
 
 fn rates(exam: &Exam, page: &mut String) {

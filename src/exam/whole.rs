@@ -8,6 +8,7 @@ use super::answer::Sort;
 use super::calibration::{self, Bin};
 use super::judge::Judged;
 use super::rates::{Rate, Rates};
+use super::sittings::Sitting;
 
 /// How large several things are.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,13 +34,20 @@ impl Spread {
 /// Groups of cases by their name, and of each the rates that it has a case for, by their names.
 pub type Groups = BTreeMap<String, BTreeMap<String, Rate>>;
 
+/// The format of `exam.json`.
+pub const SCHEMA: &str = "kinetwin-exam/2";
+
 /// A whole exam: `exam.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Exam {
     pub schema: String,
+    /// Of several sittings that of the last one, as its date is.
     pub seed: u64,
     /// When its answers were opened, by the calendar: 2026-01-31.
     pub date: String,
+    /// The sittings that it was taken in, where they were several.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sittings: Vec<Sitting>,
     /// How many cases it has.
     pub cases: usize,
     pub rates: Rates,
@@ -79,9 +87,10 @@ impl Exam {
         let named = counted.iter().filter(|one| one.true_class_size.is_some() && one.class_size > 0);
         let seconds = judged.iter().map(|one| one.seconds).sum::<f64>() / judged.len().max(1) as f64;
         Exam {
-            schema: "kinetwin-exam/2".to_owned(),
+            schema: SCHEMA.to_owned(),
             seed,
             date,
+            sittings: Vec::new(),
             cases: judged.len() + failed.keys().filter(|case| judged.iter().all(|one| one.case != **case)).count(),
             rates: Rates::of(&all, |magnitude| magnitude.counts()),
             calibration: calibration::curve(counted.iter().filter_map(|one| one.weighed())),
