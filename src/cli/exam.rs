@@ -83,8 +83,8 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
         name.push("-reports");
         arguments.folder.with_file_name(name)
     });
-    let floor = arguments.floor.as_deref().map(floor).transpose()?;
-    let earlier = arguments.with.iter().map(|path| sitting(path)).collect::<Result<Vec<Exam>, _>>()?;
+    let floor = arguments.floor.as_deref().map(|path| named(path, Floor::from_json)).transpose()?;
+    let earlier = arguments.with.iter().map(|path| named(path, Exam::of_sitting)).collect::<Result<Vec<_>, _>>()?;
     let cases = sealed_answers::cases(&arguments.folder).map_err(|error| Failure::of(&error))?;
     if cases.is_empty() {
         let folder = arguments.folder.display();
@@ -120,18 +120,11 @@ pub fn run(arguments: &ExamArguments) -> Result<Answer, Failure> {
     Ok(if is_fine { Answer::Yes } else { Answer::No })
 }
 
-/// Reads what the rates must reach.
-fn floor(path: &Path) -> Result<Floor, Failure> {
+/// Reads a file that was named.
+fn named<T, E: std::fmt::Display>(path: &Path, of: impl Fn(&str) -> Result<T, E>) -> Result<T, Failure> {
     let failed = |error: &dyn std::fmt::Display| Failure(format!("error: {}: {error}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| failed(&error))?;
-    Floor::from_json(&text).map_err(|error| failed(&error))
-}
-
-/// Reads an exam that was taken in another sitting.
-fn sitting(path: &Path) -> Result<Exam, Failure> {
-    let failed = |error: &dyn std::fmt::Display| Failure(format!("error: {}: {error}", path.display()));
-    let text = std::fs::read_to_string(path).map_err(|error| failed(&error))?;
-    Exam::of_sitting(&text).map_err(|error| failed(&error))
+    of(&text).map_err(|error| failed(&error))
 }
 
 /// The file that a case was answered with.

@@ -1,5 +1,7 @@
 //! An exam in several sittings: each with machines of a seed of its own, opened when all of its cases had been answered.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -67,7 +69,7 @@ impl Exam {
         let sittings: Vec<Sitting> = all.iter().map(of).collect();
         let last = sittings[sittings.len() - 1].clone();
         let named = |place: usize, case: &str| format!("{}/{case}", place + 1);
-        let (mut judged, mut failed) = (Vec::new(), std::collections::BTreeMap::new());
+        let (mut judged, mut failed) = (Vec::new(), BTreeMap::new());
         for (place, exam) in all.into_iter().enumerate() {
             failed.extend(exam.failed.into_iter().map(|(case, why)| (named(place, &case), why)));
             judged.extend(exam.judged.into_iter().map(|mut one| {
@@ -81,8 +83,6 @@ impl Exam {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
     use super::*;
     use crate::exam::{Answer, Magnitude, Sort, judge, unanswered};
     use crate::gap::report::{Report, Verdict};

@@ -16,9 +16,6 @@ mod read;
 mod scatter;
 mod steps;
 mod tries;
-mod windows;
-
-use std::sync::Arc;
 
 use super::cause::{Bare, Bounds, Candidate, Free, misfit};
 use super::evidence;
@@ -201,11 +198,8 @@ pub fn find(
     }
     let before = evidence(subject, &bare.prediction);
     let has_gap = before > THRESHOLD;
-    // What reads 0 while it should be far from that is no noise, however little of it there is, nor is what several levels repeat in one look.
-    let laws: &[Law] = match has_gap || Readings::are_lost_together(subject, &bare.prediction) {
-        true => &[Law::Away, Law::Lost],
-        false => &[Law::Away],
-    };
+    // What reads 0 while it should be far from that is no noise, however little of it there is.
+    let laws: &[Law] = if has_gap { &[Law::Away, Law::Lost] } else { &[Law::Away] };
     let by_reading = || laws.iter().find_map(|law| taken_out(subject, bare, before, *law, is_asked));
     let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
     // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
@@ -244,13 +238,12 @@ fn taken_out(
     let beside = |bare: &Bare| {
         let shown = read_all(bare, false);
         let count = shown.each.len();
-        // Reports get lost of a whole link, a contact is one signal's.
-        let is_links = law == Law::Lost && (count > 1 || Readings::are_lost_together(subject, &bare.prediction));
         // Several that are away are so for another reason: a drive that does not start has no speed, and does not run.
-        if count == 0 && !is_links || law == Law::Away && count > 1 {
+        if count == 0 || law == Law::Away && count > 1 {
             return None;
         }
-        let readings = if is_links { read_all(bare, true) } else { shown };
+        // Reports get lost of a whole link, a contact is one signal's.
+        let readings = if law == Law::Lost && count > 1 { read_all(bare, true) } else { shown };
         let mut other = subject.clone();
         readings.take_out(&mut other);
         let (other, bare) = without(other, bare, None)?;
@@ -270,7 +263,7 @@ fn taken_out(
         (readings, other, bare) = beside(&bare)?;
     }
     let are_whatever_is_read = || readings.each.iter().all(|(_, reading)| reading.is_whatever_is_read());
-    if before <= THRESHOLD && law == Law::Away && !are_whatever_is_read() {
+    if before <= THRESHOLD && !are_whatever_is_read() {
         return None;
     }
     // What is left of other signals than those with a loose contact is another effect's; reports get lost of all alike.
@@ -302,23 +295,6 @@ impl Readings {
     ) -> Readings {
         let read = |signal: usize| Some((signal, Reading::of(subject, prediction, signal, law, is_known)?));
         Readings { law, each: signals.into_iter().filter_map(read).collect() }
-    }
-
-    /// Whether two levels brought nothing new in one and the same look, amid motions of both that went as predicted before and behind it: of one link a
-    /// single report was lost.
-    fn are_lost_together(subject: &Subject, prediction: &Prediction) -> bool {
-        let of = |signal: usize| Some((signal, Reading::of(subject, prediction, signal, Law::Lost, true)?));
-        let all: Vec<(usize, Reading)> = (0..subject.signals.len()).filter_map(of).collect();
-        let are_looked_at_together = |one: usize, other: usize| {
-            subject.runs.iter().all(|run| match (&run.tracks[one], &run.tracks[other]) {
-                (Some(one), Some(other)) => Arc::ptr_eq(&one.grid, &other.grid),
-                _ => false,
-            })
-        };
-        all.iter().enumerate().any(|(place, (signal, reading))| {
-            let mut others = all[place + 1..].iter();
-            others.any(|(other, lost)| are_looked_at_together(*signal, *other) && reading.is_lost_with(lost))
-        })
     }
 
     /// Of the levels that show it by themselves.
@@ -629,45 +605,5 @@ mod tests {
         assert_eq!(shown.bounds[0].value, again.bounds[0].value);
         let (study, place) = with_lost_reports(true);
         assert!(find(place, &study, &|id| id == "lost-messages", &|| false).is_none());
-    }
-
-    /// The look at which a motor's levels all change the most, and so at the looks before and behind it.
-    fn amid_a_motion(study: &Study, place: usize) -> usize {
-        let levels = study.bare[place].prediction.runs[0].iter().filter_map(|signal| match signal {
-            Predicted::Level(values) => {
-                Some(values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect::<Vec<_>>())
-            }
-            _ => None,
-        });
-        let levels: Vec<Vec<f64>> = levels.collect();
-        let least = |k: usize| {
-            let share = |steps: &Vec<f64>| {
-                let most = steps.iter().copied().fold(0.0, f64::max);
-                steps[k - 2..=k].iter().copied().fold(f64::INFINITY, f64::min) / most
-            };
-            levels.iter().map(share).fold(f64::INFINITY, f64::min)
-        };
-        (2..levels[0].len()).max_by(|a, b| least(*a).total_cmp(&least(*b))).expect("a look")
-    }
-
-    /// A single report of a motor's link, by its encoder and its speed alike; of one of the two alone it may be anything.
-    #[test]
-    fn a_single_report_is_lost_where_two_levels_show_it() {
-        let (study, place) = motor(|_, _, _, stands| stands);
-        let at = amid_a_motion(&study, place);
-        let lost = |is_it: &dyn Fn(bool) -> bool| {
-            let mut last = 0.0;
-            let (study, place) = motor(|is_count, (k, _), law, _| {
-                let fresh = if is_count { law.floor() } else { law };
-                last = if k == at && is_it(is_count) { last } else { fresh };
-                last
-            });
-            find(place, &study, &|id| id == "lost-messages", &|| false)
-        };
-        let chance = lost(&|_| true).expect("a lost report");
-        assert!(chance.candidate.component.is_none() && chance.bounds[0].value < 0.01, "{:?}", chance.bounds);
-        assert!(
-            lost(&|is_count| is_count).is_none() && lost(&|is_count| !is_count).is_none() && lost(&|_| false).is_none()
-        );
     }
 }

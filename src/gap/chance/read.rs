@@ -1,7 +1,6 @@
 //! What was drawn, read off the recording: sample by sample of a level, edge by edge of a flag.
 
 use super::tries::{ALIKE, Tries};
-use super::windows::{WINDOW_CYCLES, windows};
 use crate::gap::prediction::{Predicted, Prediction};
 use crate::gap::statistics::{quantile, wilson};
 use crate::gap::subject::{Subject, beam_of};
@@ -48,8 +47,8 @@ pub(super) struct Reading {
     /// How many samples or edges tell, and how many of them were drawn.
     telling: usize,
     drawn: usize,
-    /// By run, the places in the grid of samples that were lost one by one, the ones before and behind telling, and being as predicted.
-    amid: Vec<Vec<usize>>,
+    /// How many samples were lost one by one, the ones before and behind telling, and being as predicted.
+    amid: usize,
     /// How long the stretches last at least and at most, s, and the cycle of the grid. Beside one that ends where nobody could see it go on
     /// it may.
     spans: Vec<[f64; 2]>,
@@ -94,7 +93,6 @@ impl Reading {
         for (run, predicted) in subject.runs.iter().zip(&prediction.runs) {
             let Some(track) = &run.tracks[signal] else {
                 all.stretches.push(Vec::new());
-                all.amid.push(Vec::new());
                 continue;
             };
             all.cycle = all.cycle.max(track.grid.cycle);
@@ -114,13 +112,11 @@ impl Reading {
                 }
                 _ => all.stretches.push(Vec::new()),
             }
-            // Of a flag no sample is.
-            all.amid.resize(all.stretches.len(), Vec::new());
         }
         let is_flag = subject.runs.iter().flat_map(|run| &run.tracks[signal]).all(|track| track.values.is_empty());
         let least = match is_flag {
             true => LEAST_EDGES,
-            false if all.amid.iter().map(Vec::len).sum::<usize>() == all.drawn => LEAST_AMID,
+            false if all.amid == all.drawn => LEAST_AMID,
             false => LEAST_DRAWN,
         };
         let stretches: usize = all.stretches.iter().map(Vec::len).sum();
@@ -207,7 +203,7 @@ impl Reading {
         self.telling += telling;
         self.drawn += sure.len();
         let is_amid = |k: &&usize| law == Law::Lost && **k > 0 && fits[**k - 1] && fits.get(**k + 1) == Some(&true);
-        self.amid.push(sure.iter().filter(is_amid).map(|k| track.first + k).collect());
+        self.amid += sure.iter().filter(is_amid).count();
         let stretches = stretches(&drawn);
         let shows = |index: usize| index < track.first || hidden.get(index - track.first).is_none_or(|hidden| !hidden);
         let longest = |(from, to): (usize, usize)| {
@@ -326,12 +322,6 @@ impl Reading {
         Some(())
     }
 
-    /// Whether a sample of each was lost in one and the same look, amid motions of both.
-    pub fn is_lost_with(&self, other: &Reading) -> bool {
-        let mut runs = self.amid.iter().zip(&other.amid);
-        runs.any(|(own, other)| own.iter().any(|at| other.binary_search(at).is_ok()))
-    }
-
     /// Takes what the law drew out of the recording of a signal.
     pub fn take_out(&self, subject: &mut Subject, signal: usize, law: Law) {
         // A flag is away only where it should be up.
@@ -446,6 +436,34 @@ fn sooner(these: &[f64], those: &[f64]) -> f64 {
     these.iter().map(wins).sum::<usize>() as f64 / (these.len() * those.len()).max(1) as f64
 }
 
+/// How many cycles a window lasts at least, and how long at most, s.
+const WINDOW_CYCLES: f64 = 3.0;
+const LONGEST_WINDOW_S: f64 = 0.5;
+/// How much rarer than all lengths that are tried together it must be by chance that instants lie so on the borders of windows.
+const RARER: f64 = 100.0;
+
+/// The length of the windows on whose borders `instants` lie, s, each known to within a cycle; `None` where they lie anywhere. By chance the
+/// mean of n unit vectors is as long as r with a probability of exp(−n·r²) (Lord Rayleigh, Phil. Mag. 37, 1919).
+fn windows(instants: &[f64], cycle: f64) -> Option<f64> {
+    let n = instants.len() as f64;
+    let span = instants.iter().copied().fold(0.0, f64::max) - instants.iter().copied().fold(f64::INFINITY, f64::min);
+    if instants.len() < LEAST_DRAWN || span <= LONGEST_WINDOW_S {
+        return None;
+    }
+    let (most, least) = (1.0 / (WINDOW_CYCLES * cycle), 1.0 / LONGEST_WINDOW_S);
+    let tried = ((most - least).max(0.0) * 4.0 * span).ceil();
+    let length = |rate: f64| {
+        let angles = || instants.iter().map(|at| std::f64::consts::TAU * rate * at);
+        let (x, y) = (angles().map(f64::cos).sum::<f64>(), angles().map(f64::sin).sum::<f64>());
+        x.hypot(y) / n
+    };
+    let rates = (0..=tried as usize).map(|k| least + k as f64 / (4.0 * span));
+    let (seen, rate) = rates.map(|rate| (length(rate), rate)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // Borders of long windows are those of their halves and thirds as well.
+    let longer = (2..=4).rev().map(|times| rate / f64::from(times)).find(|rate| length(*rate) > 0.9 * seen);
+    (n * seen * seen > (RARER * tried.max(1.0)).ln()).then(|| 1.0 / longer.unwrap_or(rate))
+}
+
 /// Neighbouring places as stretches.
 fn stretches(places: &[usize]) -> Vec<(usize, usize)> {
     let mut stretches: Vec<(usize, usize)> = Vec::new();
@@ -558,15 +576,10 @@ mod tests {
         let predicted = climbs(0);
         let values = (0..100).map(|k| predicted[if [20, 50, 80].contains(&k) { k - 1 } else { k }]).collect();
         let (fits, lost) = read(values, &predicted, Law::Lost);
-        assert!(fits.is_some() && (lost.drawn, &lost.amid) == (3, &vec![vec![20, 50, 80]]), "{lost:?}");
+        assert!(fits.is_some() && (lost.drawn, lost.amid) == (3, 3), "{lost:?}");
         let late = (0..100).map(|k| climbs(50)[if k == 51 { 50 } else { k }]).collect();
         let (fits, begins) = read(late, &climbs(50), Law::Lost);
-        assert!(fits.is_some() && (begins.drawn, &begins.amid) == (1, &vec![vec![]]), "{begins:?}");
-        // Another level that missed one of the looks was lost with it; one that missed others was not.
-        let of = |at: usize| {
-            read((0..100).map(|k| predicted[if k == at { k - 1 } else { k }]).collect(), &predicted, Law::Lost).1
-        };
-        assert!(of(50).is_lost_with(&lost) && lost.is_lost_with(&of(50)) && !of(51).is_lost_with(&lost));
+        assert!(fits.is_some() && (begins.drawn, begins.amid) == (1, 0), "{begins:?}");
     }
 
     /// A flag of which two reports in five are lost: it is seen where it should be in the end, and a short pulse not at all.

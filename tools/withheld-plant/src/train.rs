@@ -27,8 +27,6 @@ pub struct Train {
     coupling: Option<Coupling>,
     /// The whole way grows by this share, with this time constant, as it warms up.
     growth: Option<(f64, f64)>,
-    /// Whether it is a fixed ratio and no more.
-    is_plain: bool,
     load: f64,
     load_speed: f64,
     clock: f64,
@@ -46,19 +44,14 @@ impl Train {
         let grip = quirks.value("belt-slip-above-acceleration", "acceleration");
         let spring = pair("compliance", "stiffness", "damping");
         let coupling = pair("x-coupling-slips-each-turn", "slip", "turn");
-        let gap = quirks.value("backlash", "gap");
-        let growth = pair("x-grows-with-heat", "share", "time");
-        let pairs = [spring, coupling, growth];
-        let is_plain = eccentric.is_none() && grip.is_none() && gap.is_none() && pairs.iter().all(Option::is_none);
         Train {
             ratio: (1.0 - slip) * (1.0 + scale),
             eccentric: eccentric.map(|quirk| ["amplitude", "period", "phase"].map(|name| quirk.value(name))),
             drum: grip.map(|grip| Drum { grip, speed: 0.0, belt: 0.0, lost: 0.0 }),
-            gap: gap.map(|gap| (gap, 0.0)),
+            gap: quirks.value("backlash", "gap").map(|gap| (gap, 0.0)),
             spring: spring.map(|(stiffness, damping)| Spring { stiffness, damping, end: 0.0, load: 0.0, speed: 0.0 }),
             coupling: coupling.map(|(slip, turn)| Coupling { slip, turn, at: 0.0, lost: 0.0 }),
-            growth,
-            is_plain,
+            growth: pair("x-grows-with-heat", "share", "time"),
             load: 0.0,
             load_speed: 0.0,
             clock: 0.0,
@@ -75,16 +68,16 @@ impl Train {
         self.load_speed
     }
 
-    /// Whether it holds its load where it is while its shaft stays at `shaft`: nothing in it moves by itself.
+    /// Whether it holds its load where it is while its shaft stays at `shaft`: it is a fixed ratio and no more.
     pub fn rests_at(&self, shaft: f64) -> bool {
-        self.is_plain && self.load_speed == 0.0 && self.load == self.geared(shaft)
+        let Train { eccentric, drum, gap, spring, coupling, growth, .. } = self;
+        let has_parts = drum.is_some() || gap.is_some() || spring.is_some() || coupling.is_some();
+        let is_plain = !has_parts && eccentric.is_none() && growth.is_none();
+        is_plain && self.load_speed == 0.0 && self.load == self.geared(shaft)
     }
 
     /// After `span` the shaft has come to `shaft` and runs at `speed`. Gives the load's way.
     pub fn advance(&mut self, span: f64, shaft: f64, speed: f64) -> f64 {
-        if self.is_plain {
-            return self.comes_to(self.geared(shaft), span);
-        }
         self.clock += span;
         let mut x = shaft;
         if let Some(drum) = &mut self.drum {
@@ -100,13 +93,8 @@ impl Train {
             x = *pushed;
         }
         x = self.geared(x);
-        let load = self.spring.as_mut().map_or(x, |spring| spring.follows(span, x));
-        self.comes_to(load, span)
-    }
-
-    fn comes_to(&mut self, load: f64, span: f64) -> f64 {
         let before = self.load;
-        self.load = load;
+        self.load = self.spring.as_mut().map_or(x, |spring| spring.follows(span, x));
         if span > 0.0 {
             self.load_speed = (self.load - before) / span;
         }
