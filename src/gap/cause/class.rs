@@ -10,7 +10,7 @@ use super::rhythm::PART;
 use super::rung::rung;
 use super::unseen::unseen;
 use crate::gap::fit::{Range, sum_of_squares};
-use crate::gap::statistics::{Draws, SAME_CLASS};
+use crate::gap::statistics::{SAME_CLASS, wins};
 use crate::plant::EffectPlace;
 
 /// Something else that could stand in the place of an effect of the answer.
@@ -207,7 +207,7 @@ fn weigh(bench: &Bench<'_>, ladder: &Ladder, mut answer: Answer) -> Answer {
         trials.iter().map(|trial| costs(trial).into_iter().map(|cost| cost / inflation).collect()).collect();
     let blocks: Vec<&[f64]> = scaled.iter().map(Vec::as_slice).collect();
     let handicaps: Vec<f64> = trials.iter().map(|trial| handicap(trial, below)).collect();
-    let wins = Draws::new(best.blocks.len(), DRAWS, 2).wins(&blocks, &handicaps);
+    let wins = wins(&blocks, &handicaps, DRAWS, 2);
     let members = 1 + answer.alternatives.len() - rivals.len();
     let each = wins[0] / members as f64;
     answer.weight = each;

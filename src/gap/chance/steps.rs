@@ -21,8 +21,11 @@ use crate::gap::prediction::{Predicted, Prediction};
 use crate::gap::study::Study;
 use crate::gap::subject::Subject;
 
-/// How many times the report's own step the sensor's must be: two and less leave no more than the rounding does.
-const COARSER: f64 = 3.0;
+/// How many times the report's own step the sensor's must be: two and less leave no more than the rounding does. Readings on a lattice gather about
+/// the multiples of 1/f as about those of 1/(1/own − f), so that one of up to three times may be one of less than two: it is believed where it is also what
+/// is predicted to be read.
+const COARSER: f64 = 2.0;
+const ALIASED: f64 = 3.0;
 /// Rounding to a step leaves it over √12, as its differences are spread evenly. Between which multiples of what that makes of them it is
 /// looked for: noise and parameters that are fitted to it add to it or take away.
 const ABOUT: [f64; 2] = [0.5, 1.6];
@@ -108,7 +111,7 @@ impl Steps {
         };
         let swings = swings_at_each(moving, 1.0 / most, finely, tried);
         let (_, first) = swings.iter().enumerate().map(gain).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let left = |rate: f64| moving.iter().map(|(y, p)| (y - (p * rate).round() / rate).powi(2)).sum::<f64>();
+        let left = |rate: f64| left(moving, rate);
         let (mut rate, mut apart) = (first, finely / f64::from(PLACES));
         for _ in 0..ZOOMS {
             let places = (-PLACES..=PLACES).map(|place| rate + f64::from(place) * apart);
@@ -169,7 +172,15 @@ impl Steps {
         if seen < AS_NEAR * (-0.5 * spread * spread).exp() {
             return None;
         }
-        Steps::fitted(moving, &read, rate, own)
+        let steps = Steps::fitted(moving, &read, rate, own)?;
+        let is_sure = steps.step > ALIASED * own || steps.is_foreseen(moving, noise);
+        is_sure.then_some(steps)
+    }
+
+    /// Whether its readings are the steps that are predicted, but for noise and rounding.
+    fn is_foreseen(&self, moving: &[(f64, f64)], noise: f64) -> bool {
+        let left = left(moving, 1.0 / self.step);
+        left <= LEFT * moving.len() as f64 * (noise * noise + self.own * self.own / 12.0)
     }
 
     /// The step about whose multiples readings gather the most, from a rate in steps per unit that is nearly its own: where the sum of
@@ -277,6 +288,11 @@ pub(super) fn find(place: usize, study: &Study) -> Option<(usize, Steps, f64)> {
     let is_usual = has_like && likes.all(|(at, signal)| of(at, signal).is_some_and(|other| steps.is_like(&other)));
     let misfit = || steps.misfit(subject, &study.bare[place].prediction, signal);
     (!is_usual).then(|| (signal, steps, misfit()))
+}
+
+/// By how much readings are off the steps, 1/`rate` each, that are predicted, squared.
+fn left(moving: &[(f64, f64)], rate: f64) -> f64 {
+    moving.iter().map(|(y, p)| (y - (p * rate).round() / rate).powi(2)).sum()
 }
 
 /// What was recorded and predicted wherever the prediction is at least `apart` from where it was taken before: all values alike, and a
@@ -435,6 +451,16 @@ mod tests {
             let noise = if place == 0 { 4e-4 } else { 0.0 };
             assert_eq!(foreseen(&sweep(0.8, |x, k| rounded(made(x, k), 1e-4)), noise), None, "{place}");
         }
+    }
+
+    /// Steps of 2.3 lattices, behind noise of a third of one, gather as those of 1.77 would.
+    #[test]
+    fn steps_of_more_than_two_lattices_are_told_from_those_of_less() {
+        let pairs = |step: f64| sweep(0.8, |x, k| rounded(rounded(x, step) + 3e-5 * noise(k), 1e-4));
+        let Bounds { interval: [least, most], .. } = found(&pairs(2.3e-4), 3e-5).expect("steps").bounds();
+        assert!(least < 2.3e-4 && 2.3e-4 < most && most - least < 1e-6, "{least} to {most}");
+        let alias = 1.0 / (1.0 / 1e-4 - 1.0 / 2.3e-4);
+        assert_eq!(found(&pairs(alias), 3e-5), None);
     }
 
     /// A report with its own steps alone, with noise of several of them, or with a wrong gain.

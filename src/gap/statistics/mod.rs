@@ -6,7 +6,7 @@ mod dependence;
 mod share;
 mod threshold;
 
-pub use blocks::{Draws, quantile, span, standing_out};
+pub use blocks::{Draws, quantile, span, standing_out, wins};
 pub use correlation::{effective_number, inflation, lag_one};
 pub use dependence::{binned_share, rank_correlation};
 pub use share::wilson;
