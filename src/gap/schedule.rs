@@ -23,7 +23,7 @@ use super::way::Way;
 use super::{Floor, Overrides};
 use crate::device::{Device, Role};
 use crate::effect::EffectError;
-use crate::plant::Parameters;
+use crate::plant::{EffectPlace, EffectSpec, ParameterValue, Parameters};
 
 /// The effect that is looked for.
 pub const PART_SPACING: &str = "part-spacing-error";
@@ -143,7 +143,7 @@ impl Study {
                 let is_it = |subject: &&(&Subject, &Bare)| subject.0.is_bay() && subject.0.id == bay.id;
                 trained.subjects.iter().zip(&trained.bare).find(|each| is_it(&each)).map(|(_, bare)| bare)
             });
-            let Some(subject) = of_belt(belt, bay, bare)? else { continue };
+            let Some(subject) = of_belt(belt, bay, (&[], &bare.overrides))? else { continue };
             let nominal = subject.predict(&[], &Overrides::none())?;
             let bare = match known {
                 Some(None) => continue,
@@ -168,9 +168,61 @@ fn is_told(bay: &Subject) -> bool {
     bay.runs.iter().map(rises).sum::<usize>() >= LEAST_RISES && !bay.runs.iter().any(|run| run.settles)
 }
 
-/// The bay that feeds a belt, as a subject of its own; `None` where no beam that is reported is ahead of its parts.
-fn of_belt(belt: &Subject, bay: &Bay, bare: &Bare) -> Result<Option<Subject>, EffectError> {
-    let device = belt.device(&[], &bare.overrides)?;
+/// What the rises of a belt's first beam say of the belt.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Told {
+    /// How far they are from the schedule of the bay, and that from where it may put its parts, in deviance.
+    pub cost: f64,
+    /// Whether they follow it.
+    pub is_followed: bool,
+}
+
+/// How the rises of the beam that first sees the parts of a bay fit its schedule, where the belt has these effects and nominal parameters. `None` where
+/// no bay feeds it, too few parts came, or an effect changes what the beam shows in another way than by a delay of its report.
+///
+/// # Errors
+/// Effects that the belt cannot have.
+pub(super) fn told(
+    belt: &Subject,
+    (specs, overrides): (&[EffectSpec], &Overrides),
+) -> Result<Option<Told>, EffectError> {
+    let is_seen_through = |spec: &EffectSpec| {
+        spec.place == EffectPlace::ReportLink && spec.kind != DEAD_TIME || spec.place == EffectPlace::Sensor
+    };
+    let Some(bay) = belt.bay.as_ref().filter(|_| !specs.iter().any(is_seen_through)) else { return Ok(None) };
+    let Some(subject) = of_belt(belt, bay, (specs, overrides))?.filter(is_told) else { return Ok(None) };
+    let bare = Bare::new(&subject, &subject.predict(&[], &Overrides::none())?);
+    let strains = bare.nuisances.iter().zip(&bare.at).map(|(nuisance, at)| nuisance.strain(*at).powi(2));
+    Ok(Some(Told {
+        cost: subject.score(&bare.prediction).total + strains.sum::<f64>(),
+        is_followed: evidence(&subject, &bare.prediction) <= THRESHOLD,
+    }))
+}
+
+const DEAD_TIME: &str = "dead-time";
+
+/// How much later effects have a port reported, s.
+fn later(specs: &[EffectSpec], port: &str) -> f64 {
+    let is_its = |spec: &&EffectSpec| {
+        spec.kind == DEAD_TIME
+            && spec.place == EffectPlace::ReportLink
+            && spec.component.as_deref().is_none_or(|component| component == port)
+    };
+    let time = |spec: &EffectSpec| match spec.parameters.get("time") {
+        Some(ParameterValue::Number(time)) => *time,
+        _ => 0.0,
+    };
+    specs.iter().filter(is_its).map(time).sum()
+}
+
+/// The bay that feeds a belt which has these effects and nominal parameters, as a subject of its own; `None` where no beam that is reported is ahead of its
+/// parts.
+fn of_belt(
+    belt: &Subject,
+    bay: &Bay,
+    (specs, overrides): (&[EffectSpec], &Overrides),
+) -> Result<Option<Subject>, EffectError> {
+    let device = belt.device(specs, overrides)?;
     let Role::Carries(of) = device.role() else { return Ok(None) };
     let at = bay.at;
     let ahead = belt.signals.iter().enumerate().filter_map(|(signal, info)| {
@@ -181,7 +233,7 @@ fn of_belt(belt: &Subject, bay: &Bay, bare: &Bare) -> Result<Option<Subject>, Ef
     let run = |run: &Run| -> Run {
         let instants: Vec<f64> = (0..=(run.ends / STEP_S) as u32).map(|step| f64::from(step) * STEP_S).collect();
         let way = Way { metres: alone::travel(device.boxed(), run, &instants), instants };
-        let late = -belt.lead(&belt.signals[signal], run);
+        let late = later(specs, &belt.signals[signal].property) - belt.lead(&belt.signals[signal], run);
         Run {
             commands: Vec::new(),
             tracks: vec![run.tracks[signal].as_ref().map(rising)],
@@ -242,6 +294,7 @@ fn exact(parameters: &Parameters, beam: f64, belt: &Subject) -> Parameters {
 mod tests {
     use super::*;
     use crate::gap::recorded_tests::{PUT_AT_A_BEAM, study};
+    use crate::gap::statistics::SAME_CLASS;
 
     /// A part that is put into a beam cuts it from then on, however deep in it. That the beam is 3 mm further on, which is within its tolerance, shows all the
     /// same: by 5 to 15 ms while the belt runs, and by 0.4 s where it stops right then.
@@ -254,5 +307,35 @@ mod tests {
         assert!(evidence(subject, &bare.prediction) <= THRESHOLD, "{:?}", bare.overrides);
         let at = bare.overrides.0.get("at").copied().expect("where parts are put");
         assert!((2.5e-3..4.5e-3).contains(&(0.15 - at)), "{at}");
+    }
+
+    /// When a bay put parts into the first beam is known: reports that come 30 ms late do not fit that, nor does a beam that stands 50 mm further on, as the other
+    /// beam might.
+    #[test]
+    fn a_schedule_tells_what_a_belt_does_not_report() {
+        let study = study(PUT_AT_A_BEAM);
+        let place = study.subjects.iter().position(|subject| subject.bay.is_some()).expect("a belt");
+        let (belt, overrides) = (&study.subjects[place], &Overrides::none());
+        let spec = |place, kind: &str, component: Option<&str>, (name, value): (&str, f64)| EffectSpec {
+            place,
+            kind: kind.to_owned(),
+            component: component.map(str::to_owned),
+            parameters: [(name.to_owned(), ParameterValue::Number(value))].into(),
+        };
+        let told = |specs: &[EffectSpec]| told(belt, (specs, overrides)).expect("its effects").expect("a bay");
+        let off = |beam: &str, by: f64| {
+            let value = belt.parameters.number(beam) + by;
+            told(&[spec(EffectPlace::Actuator, "parameter-error", Some(beam), ("value", value))])
+        };
+        let plain = told(&[]);
+        assert!(plain.is_followed);
+        let same = off("barrierB", 0.05);
+        assert!(same.is_followed && (same.cost - plain.cost).abs() < 1.0, "{same:?} {plain:?}");
+        let late = told(&[spec(EffectPlace::ReportLink, DEAD_TIME, None, ("time", 0.03))]);
+        for other in [late, off("barrierA", 0.05)] {
+            assert!(!other.is_followed && other.cost > plain.cost + SAME_CLASS, "{other:?} {plain:?}");
+        }
+        let blind = spec(EffectPlace::Sensor, "blind-range", Some("lightBarrierA"), ("length", 0.05));
+        assert!(super::told(belt, (&[blind], overrides)).expect("its effects").is_none());
     }
 }

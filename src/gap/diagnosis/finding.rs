@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Options;
+use super::scheduled::tell_by_schedule;
 use crate::gap::age::older;
 use crate::gap::cause::{
     Alternative, Answer, Bare, Bench, Bounds, Candidate, Ladder, MOST_INFLATED, Nuisance, Remainder, Standing, Trial,
@@ -205,6 +206,7 @@ fn conclude(
     let weighing = finding.ladder.subject.clone();
     let weighed = bench.with(&weighing);
     finding.answers = answers(&weighed, &finding.ladder, options.is_asked, options.tell);
+    tell_by_schedule(subject, &mut finding);
     name_the_plainest(&weighed, &mut finding);
     name_what_lets_go_at_once(&weighed, &mut finding);
     finding.bounds = intervals(&weighed, &finding.ladder.best, finding.ladder.ends.as_deref(), tick);

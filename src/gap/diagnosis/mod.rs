@@ -6,6 +6,7 @@
 
 mod finding;
 mod held_out;
+mod scheduled;
 mod shrink;
 mod states;
 mod untrained;
