@@ -27,6 +27,8 @@ use crate::plant::{EffectPlace, EffectSpec, ParameterValue, Parameters};
 
 /// The effect that is looked for.
 pub const PART_SPACING: &str = "part-spacing-error";
+/// The effect of a link by which a beam is told later, and no otherwise.
+const DEAD_TIME: &str = "dead-time";
 
 /// How finely the belt's way is known, s.
 const STEP_S: f64 = 5e-3;
@@ -198,8 +200,6 @@ pub(super) fn told(
         is_followed: evidence(&subject, &bare.prediction) <= THRESHOLD,
     }))
 }
-
-const DEAD_TIME: &str = "dead-time";
 
 /// How much later effects have a port reported, s.
 fn later(specs: &[EffectSpec], port: &str) -> f64 {
