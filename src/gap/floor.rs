@@ -84,6 +84,12 @@ impl Floor {
         mean * mean * (self.uncertainty.powi(2) - FLOOR_UNCERTAINTY.powi(2)).max(0.0)
     }
 
+    /// Which share of that a moving level costs, on the average of all places between two steps, if there is no more noise than was found at rest.
+    pub fn share_of_rounding(&self) -> f64 {
+        let costs = |noise: f64| FloorCosts::new(noise / self.step, self.least_noise() / self.step).mean();
+        costs(self.noise.max(SHARPEST * self.step)) / costs(self.noise.max(self.least_noise()))
+    }
+
     /// What a sample costs where nothing is wrong. Noise that does not show at rest may be there in motion.
     pub fn costs(&self) -> FloorCosts {
         let sigma = self.sigma(0.0);
@@ -131,6 +137,11 @@ impl FloorCosts {
             (mean, (square - mean * mean).max(1e-6))
         };
         FloorCosts { by_place: (0..Self::PLACES).map(at).collect() }
+    }
+
+    /// The mean of all places.
+    fn mean(&self) -> f64 {
+        self.by_place.iter().map(|(mean, _)| mean).sum::<f64>() / self.by_place.len() as f64
     }
 
     /// For a true value that lies `steps` steps from a value that can be recorded.

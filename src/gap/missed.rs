@@ -15,12 +15,25 @@ pub(super) struct Missed {
     is_reliable: bool,
     /// The beam that saw none of the parts of the bay whose belt it is.
     blind: Option<usize>,
+    /// The beams that are cut to the end by no part: parts passed them meanwhile.
+    passed: [bool; 2],
 }
 
 impl Missed {
-    /// Of what the barriers of a belt saw, which were so many parts.
-    pub fn new(geometry: &Geometry, seen: &[Seen], parts: usize) -> Missed {
-        Missed { is_reliable: is_reliable(seen, parts), blind: blind(geometry, seen) }
+    /// Of what the barriers of a belt saw, which were so many parts; `travel` gives the belt's way at an instant, m.
+    pub fn new(geometry: &Geometry, seen: &[Seen], parts: usize, travel: &dyn Fn(f64) -> f64) -> Missed {
+        let is_alone = |cut: &Seen| seen.iter().all(|of| of.beam == cut.beam || of.part != cut.part);
+        let passed = |beam: usize| {
+            let first = |cut: &&Seen| cut.beam != beam && cut.length.is_some() && is_alone(cut);
+            let passes = |cut: &Seen| passed_unseen(geometry, seen, cut, travel).is_some();
+            let stays = seen.iter().any(|cut| cut.beam == beam && cut.stays && is_alone(cut));
+            stays && seen.iter().filter(first).any(passes)
+        };
+        Missed {
+            is_reliable: is_reliable(geometry, seen, parts, travel),
+            blind: blind(geometry, seen),
+            passed: [passed(0), passed(1)],
+        }
     }
 
     /// Whether the other barrier's parts are due at a beam, and missed where they do not come.
@@ -30,12 +43,13 @@ impl Missed {
 
     /// Whether a cut is none of a part: what sees no part stays cut.
     pub fn is_of_no_part(&self, cut: &Seen) -> bool {
-        cut.stays && self.blind == Some(cut.beam)
+        cut.stays && (self.blind == Some(cut.beam) || cut.length.is_none() && self.passed[cut.beam])
     }
 }
 
 /// Whether what passes the first beam reaches the second: as far as that still showed anything.
-fn is_reliable(seen: &[Seen], parts: usize) -> bool {
+fn is_reliable(geometry: &Geometry, seen: &[Seen], parts: usize, travel: &dyn Fn(f64) -> f64) -> bool {
+    const STEP_S: f64 = 0.1;
     let until = [0, 1].map(|beam| {
         let of_beam = seen.iter().filter(|cut| cut.beam == beam);
         of_beam.map(|cut| if cut.to.is_finite() { cut.to } else { cut.from }).fold(f64::NEG_INFINITY, f64::max)
@@ -45,7 +59,13 @@ fn is_reliable(seen: &[Seen], parts: usize) -> bool {
     for cut in seen.iter().filter(|cut| cut.again.is_none()) {
         let part = cut.part.unwrap_or(0);
         beams[part] += 1;
-        could[part] |= cut.from <= until[1 - cut.beam];
+        let until = until[1 - cut.beam];
+        let comes = |between: f64| {
+            let steps = ((until - cut.from) / STEP_S).ceil().max(1.0);
+            let at = |step: u32| cut.from + (until - cut.from) * f64::from(step) / steps;
+            (0..=steps as u32).any(|step| cut.way * (travel(at(step)) - cut.start) >= between)
+        };
+        could[part] |= cut.from <= until && distance(geometry, cut.beam, cut.way).is_none_or(comes);
     }
     let both = beams.iter().filter(|count| **count == 2).count();
     let all = could.iter().filter(|could| **could).count();
@@ -153,6 +173,26 @@ mod tests {
         assert!(at(&script(&reached, &a, &Track::of_cuts(&[])).0, 1).is_empty());
         // Of two it is not said.
         assert!(at(&script(&fed, &Track::of_cuts(&COMING[..2]), &Track::of_cuts(&[])).0, 1).is_empty());
+    }
+
+    /// Barrier B stays cut from the second part on, when the third has passed A and is still on its way: that says nothing of whether parts come from A to B.
+    #[test]
+    fn what_was_still_on_its_way_is_not_missed() {
+        let later = [(1.01, 1.61), (3.01, 3.61), (4.21, 4.81), (9.01, 9.61)];
+        let (found, _) = script(&Geometry::of_rig(), &Track::of_cuts(&later), &stuck(&[(3.81, 4.41), (5.81, 6.41)]));
+        assert_eq!(at(&found, 1), [(0, 0.3), (1, 0.3), (2, 0.3), (3, 0.3)]);
+    }
+
+    /// Barrier A is cut for good by nothing, 1.2 m behind the first part; those after it come to B, and have been where A is cut.
+    #[test]
+    fn what_is_cut_for_good_where_parts_pass_is_cut_by_none() {
+        let a = stuck(&[(1.01, 1.61), (3.41, 4.01)]);
+        let b = Track::of_cuts(&COMING.map(|(from, to)| (from + 2.8, to + 2.8)));
+        let (found, origins) = script(&Geometry::of_rig(), &a, &b);
+        assert_eq!(at(&found, 0).iter().map(|(_, length)| *length).collect::<Vec<_>>(), [0.3; 3]);
+        assert_eq!(at(&found, 1).len(), 3);
+        // What cut it is recorded, and predicted by nothing.
+        assert!(matches!(origins[0][2], Origin::Part(part) if found.cuts.iter().all(|cut| cut.part != part)));
     }
 
     /// Barrier A stays cut from the second part on; that and the third come to B, 2.8 s later, and the third has been where A is cut still.

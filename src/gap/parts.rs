@@ -51,7 +51,7 @@ pub(super) fn assign(
     seen.sort_by(|a, b| a.from.total_cmp(&b.from));
     find_again(geometry, &mut seen, travel);
     let parts = name_parts(geometry, &mut seen, travel);
-    let missed = Missed::new(geometry, &seen, parts);
+    let missed = Missed::new(geometry, &seen, parts, travel);
     for (at, cut) in seen.iter().enumerate() {
         script_of(geometry, &seen, at, (&missed, travel), &mut script);
         if let Some(part) = cut.part {

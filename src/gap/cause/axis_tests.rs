@@ -32,6 +32,7 @@ pub fn ending_at(bench: &Bench<'_>, nominal: &Prediction, best: Trial) -> Ladder
         floor: floor(&bench.subject.score(nominal)),
         bare: bench.trial(&[], Vec::new()).expect("a trial"),
         beneath: 0.0,
+        beyond_rounding: 0.0,
         best,
         ends: None,
         subject: bench.subject.clone(),

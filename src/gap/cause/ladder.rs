@@ -15,6 +15,7 @@ use super::rung::{beneath, beneath_others, rung};
 use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
 use crate::gap::fit::{Effort, Range, Spread, spread, sum_of_squares};
+use crate::gap::locate::beyond_rounding;
 use crate::gap::statistics::{Draws, least_gain, quantile, standing_out};
 use crate::gap::{FAR_BEYOND, Prediction, Score, Subject, THRESHOLD, evidence, evidence_all_along, gains_with_motion};
 
@@ -53,6 +54,8 @@ pub struct Ladder {
     pub floor: (f64, f64),
     /// What is to be had of the bare model at least: of what stands out, or, where nothing is off, of what goes with an effect.
     pub beneath: f64,
+    /// Of that, what levels that show no noise cost more than their rounding, where nothing else shows that anything is off; 0 otherwise.
+    pub beyond_rounding: f64,
     /// The best set; the bare model where no effect is worth having.
     pub best: Trial,
     /// How far each of its parameters may go, as far as walkers went; `None` where slopes say that.
@@ -107,6 +110,7 @@ pub fn climb(
         bare,
         floor,
         beneath: 0.0,
+        beyond_rounding: 0.0,
         ends: None,
         subject,
         singles: vec![],
@@ -118,10 +122,15 @@ pub fn climb(
     if evidence(bench.subject, &prediction) <= THRESHOLD {
         let least = BENEATH * THRESHOLD * ladder.bare.inflation();
         let found = beneath(bench, &ladder.bare, least, is_asked).unwrap_or(0.0);
-        if found <= least {
+        if found > least {
+            ladder.beneath = found;
+        } else {
+            ladder.beyond_rounding = beyond_rounding(bench.subject, &prediction);
+            ladder.beneath = ladder.beyond_rounding;
+        }
+        if ladder.beneath == 0.0 {
             return Some(ladder);
         }
-        ladder.beneath = found;
     } else if Standing::of_trial(bench, &ladder.bare)?.excess(ladder.bare.cost) < least_excess(&ladder.bare) {
         ladder.beneath = evidence(bench.subject, &prediction).max(standing_out(&ladder.bare.blocks));
     }
@@ -136,6 +145,10 @@ pub fn climb(
             }
         }
         let is_dropped = drop_idle(bench, &mut ladder);
+        // Two at once explain more by chance than what shows by its rounding alone may bear.
+        if ladder.best.set.is_empty() && ladder.beyond_rounding > 0.0 {
+            break;
+        }
         if !(is_dropped || end == Rung::Unsure) || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }
@@ -228,11 +241,13 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if below.set.is_empty() {
         ladder.singles = rivals;
     }
+    let cost = |next: &Trial| bench.trial(&next.set, next.at.clone()).map_or(f64::INFINITY, |next| next.cost);
     // Of two that explain about as much, one may do so all along and the other in a few moments.
     let is_worth = |(next, subject): &(Trial, Subject)| {
         let as_left = bench.with(subject);
         is_worth_having(&as_left, &below, next, ladder)
             && (left == Left::Much || takes_nearly_all(&as_left, &below, next))
+            && (!below.set.is_empty() || plain.cost - cost(next) >= MOST_OF_IT * ladder.beyond_rounding)
     };
     let worth = choices.iter().position(is_worth);
     if let Some(place) = worth {
@@ -249,6 +264,9 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
 /// Of what is little, an effect has to take away so much to be its cause. (Four that were one took away 0.88, 0.94, 0.97 and all; four that were none 0.76, 0.83,
 /// 0.86 and 0.93.)
 const NEARLY_ALL: f64 = 0.87;
+
+/// The same of what a level that shows no noise costs more than its rounding.
+const MOST_OF_IT: f64 = 0.5;
 
 /// Whether `next` takes away nearly all that `below` leaves above the floor.
 fn takes_nearly_all(bench: &Bench<'_>, below: &Trial, next: &Trial) -> bool {

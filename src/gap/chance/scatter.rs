@@ -93,10 +93,17 @@ fn at_rest(values: &[f64], predicted: &[f64], still: f64, only_long: bool) -> Op
     const LONG: usize = 24;
     const ENOUGH: usize = 40;
     const QUIETEST: f64 = 0.1;
-    // What drifts differs from one sample to the next by what it drifts.
+    const SWINGS: f64 = 0.5;
+    // What drifts differs from one sample to the next by what it drifts; and what swings by nearly what it did from the one before, where noise of whatever
+    // memory rather turns back.
     let noise = |differences: &[f64]| {
         let drifts = quantile(differences, 0.5);
-        let off: Vec<f64> = differences.iter().map(|difference| (difference - drifts).abs()).collect();
+        let off: Vec<f64> = differences.iter().map(|difference| difference - drifts).collect();
+        let product = |lag: usize| off.iter().zip(&off[lag..]).map(|(a, b)| a * b).sum::<f64>();
+        if product(1) > SWINGS * product(0) {
+            return 0.0;
+        }
+        let off: Vec<f64> = off.iter().map(|off| off.abs()).collect();
         1.4826 * quantile(&off, 0.5) / std::f64::consts::SQRT_2
     };
     let rests: Vec<bool> = predicted.windows(2).map(|law| (law[1] - law[0]).abs() < still).collect();
@@ -164,6 +171,18 @@ mod tests {
         assert_eq!(at_rest(&values(&|k| k as f64), &predicted, 0.1, false), Some(0.0));
         let noise = at_rest(&values(&drifts), &predicted, 0.1, false).expect("enough rests");
         assert!((noise - 1.4826 / std::f64::consts::SQRT_2).abs() < 1e-12, "{noise}");
+    }
+
+    /// A loop that swings for ever, and one that does so with noise on its report.
+    #[test]
+    fn what_swings_on_and_on_is_no_noise() {
+        let predicted = law();
+        let noise = |by: f64| {
+            let swing = |k: usize| 0.6 * (0.05 * k as f64).sin() + by * (k % 2) as f64;
+            let values: Vec<f64> = predicted.iter().enumerate().map(|(k, law)| law + swing(k)).collect();
+            at_rest(&values, &predicted, 0.1, false).expect("enough rests")
+        };
+        assert!(noise(0.0) == 0.0 && noise(0.2) > 0.1, "{} {}", noise(0.0), noise(0.2));
     }
 
     /// Of what swings when it comes to rest, 15 samples a turn, little is left in the later half.
