@@ -86,8 +86,8 @@ impl Floor {
 
     /// Which share of that a moving level costs, on the average of all places between two steps, if there is no more noise than was found at rest.
     pub fn share_of_rounding(&self) -> f64 {
-        let costs = |noise: f64| FloorCosts::new(noise / self.step, self.least_noise() / self.step).mean();
-        costs(self.noise.max(SHARPEST * self.step)) / costs(self.noise.max(self.least_noise()))
+        let noise = self.noise.max(SHARPEST * self.step);
+        FloorCosts::new(noise / self.step, self.sigma(0.0) / self.step).mean() / self.costs().mean()
     }
 
     /// What a sample costs where nothing is wrong. Noise that does not show at rest may be there in motion.

@@ -241,13 +241,18 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if below.set.is_empty() {
         ladder.singles = rivals;
     }
-    let cost = |next: &Trial| bench.trial(&next.set, next.at.clone()).map_or(f64::INFINITY, |next| next.cost);
+    // Where nothing but its rounding shows that anything is off, the first effect must be the cause of most of that.
+    let beyond = if below.set.is_empty() { ladder.beyond_rounding } else { 0.0 };
+    let takes_most = |next: &Trial| {
+        let next = bench.trial(&next.set, next.at.clone());
+        next.is_some_and(|next| plain.cost - next.cost >= MOST_OF_IT * beyond)
+    };
     // Of two that explain about as much, one may do so all along and the other in a few moments.
     let is_worth = |(next, subject): &(Trial, Subject)| {
         let as_left = bench.with(subject);
         is_worth_having(&as_left, &below, next, ladder)
             && (left == Left::Much || takes_nearly_all(&as_left, &below, next))
-            && (!below.set.is_empty() || plain.cost - cost(next) >= MOST_OF_IT * ladder.beyond_rounding)
+            && (beyond == 0.0 || takes_most(next))
     };
     let worth = choices.iter().position(is_worth);
     if let Some(place) = worth {
