@@ -75,7 +75,7 @@ impl Axis {
 
     /// The motor's side: what the axis's own controller sees.
     pub fn motor(&self) -> Motion {
-        if self.stages.is_nominal() { motion(&self.profile) } else { self.motor }
+        if self.stages.is_nominal() { self.profile.motion() } else { self.motor }
     }
 
     /// The load's side: where the tool is.
@@ -93,8 +93,12 @@ impl Axis {
         if !self.stages.is_nominal() {
             return 0.0;
         }
-        let away = (self.profile.position() - self.target).abs() - self.tolerance - 2.0 * SAME_VALUE;
-        (away / self.limits.velocity - SAME_INSTANT_S).max(0.0)
+        let near = self.tolerance + 2.0 * SAME_VALUE;
+        let away = self.profile.away_for(near, STANDSTILL + SAME_VALUE).unwrap_or_else(|| {
+            let away = (self.profile.position() - self.target).abs() - near;
+            away / self.limits.velocity
+        });
+        (away - SAME_INSTANT_S).max(0.0)
     }
 
     /// It holds so many parts.
@@ -121,7 +125,7 @@ impl Axis {
             let start = self.profile;
             let was_there = self.is_there(self.motor);
             self.profile.advance(moment.span);
-            let law = motion(&self.profile);
+            let law = self.profile.motion();
             self.motor = self.stages.actuator.motion(law, moment);
             self.load = self.stages.transmission.motion(self.motor, moment);
             // A stage that waits for the arrival sees it at its instant.
@@ -146,7 +150,7 @@ impl Axis {
             let middle = 0.5 * (before + after);
             let mut profile = start;
             profile.advance(middle);
-            if self.is_there(motion(&profile)) { after = middle } else { before = middle }
+            if self.is_there(profile.motion()) { after = middle } else { before = middle }
         }
         after
     }
@@ -167,8 +171,4 @@ impl Axis {
         self.profile.state(visit);
         self.stages.state(visit);
     }
-}
-
-fn motion(profile: &Profile) -> Motion {
-    Motion { position: profile.position(), velocity: profile.velocity() }
 }

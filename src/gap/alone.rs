@@ -29,6 +29,8 @@ pub(super) struct Watch<'a> {
     pub lead: f64,
     /// The beam that it reports, if it is a barrier's.
     pub beam: Option<usize>,
+    /// Whether it is of a speed: one that passes 0 may bring a state there and back.
+    pub is_speed: bool,
 }
 
 impl Watch<'_> {
@@ -220,8 +222,9 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
     let mut tape = keeps.then(|| Tape::new(&alone, has_edges));
     let (mut command, mut taken_up_again) = (0, 0);
     let restarts = run.restarts.as_deref();
+    let due_at = |command: usize| run.commands.get(command).map(|(_, stamped)| run.task.taken_up(stamped.at));
+    let mut due = due_at(command);
     loop {
-        let due = run.commands.get(command).map(|(_, stamped)| run.task.taken_up(stamped.at));
         let restart = restarts.and_then(|restarts| restarts.each.get(taken_up_again)).map(|restart| restart.at);
         let quiet = if looks.are_of_states() { alone.quiet_until() } else { alone.now };
         let looked = looks.next(due.into_iter().chain(restart).min_by(f64::total_cmp), quiet);
@@ -264,6 +267,7 @@ pub(super) fn run(mut alone: Alone, run: &Run, watches: &[Watch<'_>]) -> Vec<Pre
                     tape.obeyed(index);
                 }
                 command += 1;
+                due = due_at(command);
                 if has_edges {
                     note_at_once(&mut views, &mut alone);
                 }
@@ -306,6 +310,7 @@ fn is_first(due: f64, looked: f64, commands_first: bool) -> bool {
 struct View {
     port: usize,
     is_edge: bool,
+    is_speed: bool,
     /// What it is now, and since when.
     state: f64,
     since: f64,
@@ -328,7 +333,8 @@ impl View {
         };
         let mut alone = alone.clone();
         let state = alone.look()[watch.port];
-        View { port: watch.port, is_edge, state, since: 0.0, beam: watch.beam, passing: None, shown: None, predicted }
+        let (port, is_speed, beam) = (watch.port, watch.is_speed, watch.beam);
+        View { port, is_edge, is_speed, state, since: 0.0, beam, passing: None, shown: None, predicted }
     }
 
     /// Whether a look at the device finds the signal as it was.
@@ -381,8 +387,12 @@ fn note_edges(views: &mut [View], legs: &[Leg], alone: &mut Alone) {
     }
 }
 
-/// Finds the states that are as they were, and were not where a level passes 0 in a leg.
+/// Finds the states that are as they were, and were not where a speed passes 0 in a leg.
 fn note_pulses(views: &mut [View], leg: &Leg, alone: &Alone) {
+    let speeds: Vec<usize> = views.iter().filter(|view| view.is_speed).map(|view| view.port).collect();
+    if speeds.is_empty() {
+        return;
+    }
     let mut look = vec![0.0; alone.reports.len()];
     let mut reports = |device: &mut Box<dyn Device>| {
         device.report(&mut look);
@@ -391,11 +401,10 @@ fn note_pulses(views: &mut [View], leg: &Leg, alone: &Alone) {
     let mut end = leg.device.clone();
     end.advance(leg.to - leg.from);
     let (first, last) = (reports(&mut leg.device.clone()), reports(&mut end));
-    let levels = views.iter().filter(|view| !view.is_edge).map(|view| view.port);
-    let passing: Vec<usize> = levels.filter(|port| first[*port] * last[*port] < 0.0).collect();
-    for level in passing {
-        let mut is_beyond = |device: &mut Box<dyn Device>| reports(device)[level] * last[level] > 0.0;
-        let Some(at) = becomes_in(leg, None, What::Level, &mut is_beyond) else { continue };
+    let passing: Vec<usize> = speeds.into_iter().filter(|port| first[*port] * last[*port] < 0.0).collect();
+    for speed in passing {
+        let mut is_beyond = |device: &mut Box<dyn Device>| reports(device)[speed] * last[speed] > 0.0;
+        let Some(at) = becomes_in(leg, None, What::Speed, &mut is_beyond) else { continue };
         let mut there = leg.device.clone();
         there.advance(at - leg.from);
         let passed = reports(&mut there);
@@ -419,8 +428,8 @@ fn note_pulses(views: &mut [View], leg: &Leg, alone: &Alone) {
 enum What {
     /// A report that steps is another.
     State,
-    /// A level is beyond something.
-    Level,
+    /// A speed is beyond 0.
+    Speed,
 }
 
 /// When in a leg, or at its end, something comes to be so of its device.

@@ -16,8 +16,8 @@ const LEAP_S: f64 = 0.02;
 /// All looks of a run.
 pub(super) struct Looks<'a> {
     streams: Vec<Stream<'a>>,
-    /// The ports of levels: one that passes 0 may have brought a state there and back.
-    levels: Vec<usize>,
+    /// The ports of speeds: one that passes 0 may have brought a state there and back.
+    speeds: Vec<usize>,
     /// Until when every instant is looked at, s.
     slowly: f64,
     /// How many instants one look may stand for now.
@@ -102,9 +102,9 @@ impl<'a> Looks<'a> {
             }
         }
         streams.iter_mut().for_each(|stream| stream.go_on_at(stream.next));
-        let levels = watches.iter().filter(|watch| watch.track.is_some() && !watch.is_edge());
-        let levels = levels.map(|watch| watch.port).collect();
-        Looks { streams, levels, slowly: 0.0, stride: 1, leaps: false }
+        let speeds = watches.iter().filter(|watch| watch.track.is_some() && watch.is_speed);
+        let speeds = speeds.map(|watch| watch.port).collect();
+        Looks { streams, speeds, slowly: 0.0, stride: 1, leaps: false }
     }
 
     /// Whether states alone are looked at: then nothing is there to be seen while none changes.
@@ -144,10 +144,10 @@ impl<'a> Looks<'a> {
         self.leaps
     }
 
-    /// Which way each level goes from 0.
+    /// Which way each speed goes from 0.
     pub fn signs(&self, reports: &[f64]) -> u64 {
         let bit = |(place, port): (usize, &usize)| u64::from(reports[*port] < 0.0) << (place % 64);
-        self.levels.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit)
+        self.speeds.iter().enumerate().map(bit).fold(0, |bits, bit| bits | bit)
     }
 
     /// Something has changed before `at`: until then every instant is looked at.

@@ -31,8 +31,10 @@ use crate::device::Device;
 use crate::effect::{self, CARRIES_PARTS, EffectError, SHARES_A_SUPPLY};
 use crate::plant::{EffectSpec, ParameterValue, Parameters, Plant};
 use crate::prototype::kind::{KindDescriptor, PortDescriptor, PortType};
+use crate::prototype::quantity::si_unit;
 use crate::signal_map::{Direction, Kind, RegisterId};
 use crate::trace::Commands;
+use crate::value::Quantity;
 
 /// How far a sensor may be off in time where nothing better is known, s.
 const EDGE_SIGMA_S: f64 = 3e-4;
@@ -301,7 +303,9 @@ impl Subject {
     }
 
     fn watch<'a>(&self, info: &SignalInfo, track: &'a Option<Track>, run: &Run) -> Watch<'a> {
-        Watch { port: info.port, track: track.as_ref(), lead: self.lead(info, run), beam: beam_of(info) }
+        let speeds = [Quantity::Velocity, Quantity::AngularVelocity];
+        let is_speed = info.kind == Kind::Level && speeds.iter().any(|of| info.descriptor.quantities.contains(of));
+        Watch { port: info.port, track: track.as_ref(), lead: self.lead(info, run), beam: beam_of(info), is_speed }
     }
 
     /// Compares a prediction of this subject with what was recorded.
@@ -587,7 +591,7 @@ fn signals_of(plant: &Plant, id: TaskId) -> Vec<SignalInfo> {
             descriptor,
             property: descriptor.name.to_owned(),
             kind: signal.kind,
-            unit: crate::prototype::quantity::si_unit(signal.unit.quantity).to_string(),
+            unit: si_unit(signal.unit.quantity).to_string(),
             is_count: signal.kind == Kind::Level && descriptor.ty == PortType::Integer,
         }
     };

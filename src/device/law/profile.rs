@@ -109,6 +109,15 @@ impl Profile {
         self.now().map_or(0.0, |(segment, seconds)| segment.velocity(seconds))
     }
 
+    /// Both.
+    pub fn motion(&self) -> Motion {
+        let there = Motion { position: self.target, velocity: 0.0 };
+        self.now().map_or(there, |(segment, seconds)| Motion {
+            position: segment.position(seconds),
+            velocity: segment.velocity(seconds),
+        })
+    }
+
     /// The present segment, and the time since it began; `None` once the plan has ended.
     fn now(&self) -> Option<(&Segment, f64)> {
         let mut seconds = self.elapsed.value();
@@ -124,6 +133,20 @@ impl Profile {
     /// For how long from now on its acceleration stays as it is if no target comes, s.
     pub fn steady(&self) -> f64 {
         self.now().map_or(f64::INFINITY, |(segment, seconds)| segment.seconds - seconds)
+    }
+
+    /// For how long from now on it is further than `near` from its target or not slower than `slow`, s. `None` where it still turns round, or does not
+    /// brake all the way in from `near`.
+    pub fn away_for(&self, near: f64, slow: f64) -> Option<f64> {
+        let (segment, since) = self.now()?;
+        let last = &self.segments[2];
+        let (peak, acceleration) = (last.velocity, last.acceleration.abs());
+        let turns_round = segment.velocity(since) * peak < 0.0;
+        if turns_round || near > 0.5 * peak * peak / acceleration {
+            return None;
+        }
+        let left = self.segments.iter().map(|segment| segment.seconds).sum::<f64>() - self.elapsed.value();
+        Some(left - f64::min(slow / acceleration, (2.0 * near / acceleration).sqrt()))
     }
 
     fn plan(&mut self, target: f64) {
@@ -324,6 +347,26 @@ mod tests {
             axis.advance(end - 1e-8);
             prop_assert!((axis.position() - target).abs() < 1e-12);
             prop_assert!(axis.velocity().abs() < 1e-7);
+        }
+
+        #[test]
+        fn it_is_there_when_it_is_no_longer_away(
+            target in -3.0..3.0_f64, velocity in -1.0..1.0_f64, near in 1e-6..1e-2_f64, slow in 1e-4..1e-1_f64, after in 0.0..1.0_f64,
+        ) {
+            let mut axis = moving(0.0, velocity);
+            axis.retarget(target);
+            axis.advance(after);
+            let Some(away) = axis.away_for(near, slow) else { return Ok(()) };
+            let is_there = |seconds: f64| {
+                let mut axis = axis;
+                axis.advance(seconds);
+                (axis.position() - target).abs() <= near && axis.velocity().abs() < slow
+            };
+            for part in [0.0, 0.3, 0.7, 0.99, 1.0] {
+                let at = part * away - 1e-7;
+                prop_assert!(at < 0.0 || !is_there(at), "{part} of {away}");
+            }
+            prop_assert!(is_there(away.max(0.0) + 1e-7));
         }
 
         #[test]

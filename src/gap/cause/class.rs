@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::bench::{BLOCK_S, Bench, Trial};
 use super::candidate::Candidate;
+use super::glance::Sought;
 use super::ladder::{DRAWS, Ladder, Tell, anew, handicap};
 use super::remainder::misfit;
 use super::rhythm::PART;
@@ -86,7 +87,8 @@ fn answer(
     } else {
         let without = without(bench, best, place);
         let is_near = |candidate: &Candidate| ladder.near.iter().any(|near| near.is_same(candidate));
-        without.map_or_else(Vec::new, |below| rung(bench, &below, below.cost, is_asked, &is_near, tell))
+        without
+            .map_or_else(Vec::new, |below| rung(bench, &below, Sought::in_parts(below.cost), is_asked, &is_near, tell))
     };
     others.retain(|trial| trial.set.last().is_some_and(|last| !last.is_same(named)));
     let inflation = best.inflation();

@@ -9,13 +9,44 @@ use super::tangent::{Beside, Tangent, product};
 use crate::gap::Subject;
 use crate::gap::fit::{Effort, least_squares, search, sum_of_squares};
 
-/// What a candidate must explain to be looked at closely.
+/// What a candidate must explain to be looked at closely, of all that there is to explain.
 const PROMISING: f64 = 0.02;
 /// What a glance must promise of that: several parameters together may do more than each start says.
 const AT_A_GLANCE: [f64; 2] = [0.5, 0.2];
 /// Squared, how far a start must move the residuals, in what is worth having, and how far it may, in all there is to explain.
 const LEAST_MOVED: f64 = 0.05;
 const MOST_MOVED: f64 = 4.0;
+
+/// What there is to explain.
+#[derive(Clone, Copy, Debug)]
+pub struct Sought {
+    /// In deviance.
+    pub excess: f64,
+    /// Which share of it a candidate must explain to be looked at closely.
+    pub share: f64,
+}
+
+impl Sought {
+    /// Of which one effect may be the cause of a part.
+    pub fn in_parts(excess: f64) -> Sought {
+        Sought { excess, share: PROMISING }
+    }
+
+    /// Of which one effect must be the cause of the `share`.
+    pub fn of_one(excess: f64, share: f64) -> Sought {
+        Sought { excess, share: share.max(PROMISING) }
+    }
+
+    /// Whether what explains less is no answer at all.
+    pub fn is_of_one(&self) -> bool {
+        self.share > PROMISING
+    }
+
+    /// What a candidate must explain of it.
+    pub fn least(&self) -> f64 {
+        self.share * self.excess
+    }
+}
 
 /// What all candidates of a rung have in common.
 pub struct Looks<'a> {
@@ -26,7 +57,7 @@ pub struct Looks<'a> {
     /// The device with its edges least well known, and its residuals without the candidate: where the gap lies in edges, those that are
     /// known to the millisecond move with nothing.
     pub afar: Option<(&'a Subject, Vec<f64>)>,
-    pub excess: f64,
+    pub sought: Sought,
     /// Whether the gap lies in levels, which move with a parameter from its first trace on.
     pub is_smooth: bool,
 }
@@ -70,7 +101,7 @@ impl Glance {
 struct Sight<'a> {
     bench: &'a Bench<'a>,
     here: &'a [f64],
-    excess: f64,
+    sought: Sought,
 }
 
 /// What a candidate's starts promise together.
@@ -82,7 +113,7 @@ struct Promise {
 impl Sight<'_> {
     /// What looks promise, and whether that is worth a fit.
     fn promise(&self, glance: &Glance, looks: &[Look]) -> Promise {
-        let worth = PROMISING * self.excess * AT_A_GLANCE[usize::from(glance.candidate.free.len() > 1)];
+        let worth = self.sought.least() * AT_A_GLANCE[usize::from(glance.candidate.free.len() > 1)];
         let most = looks.iter().map(|look| look.promise).fold(0.0, f64::max);
         Promise { most, is_kept: most > worth }
     }
@@ -124,7 +155,7 @@ impl Looks<'_> {
             glance.gain = sum_of_squares(&glance.beside.here) - sum_of_squares(&self.residuals(&glance, &[])?);
             return Some(glance);
         }
-        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let near = Sight { bench: self.bench, here: &glance.beside.here, sought: self.sought };
         let mut promise = None;
         let looks = match (&self.afar, self.is_smooth) {
             (_, true) => self.look_about(&near, &glance),
@@ -133,7 +164,8 @@ impl Looks<'_> {
                 let strain =
                     self.bench.strain(&glance.set, &self.all(&glance, &vec![0.0; glance.candidate.free.len()]));
                 let here = glance.beside.left_of([residuals.as_slice(), &strain].concat());
-                let sight = Sight { bench: &self.bench.with(subject), excess: sum_of_squares(&here), here: &here };
+                let sought = Sought { excess: sum_of_squares(&here), ..self.sought };
+                let sight = Sight { bench: &self.bench.with(subject), sought, here: &here };
                 let mut looks = self.look_about(&sight, &glance);
                 looks.sort_by(|a, b| a.cost.total_cmp(&b.cost));
                 promise = Some(sight.promise(&glance, &looks));
@@ -250,7 +282,7 @@ impl Looks<'_> {
 
     /// Looks at starts that move the residuals the more the later they come.
     fn look_outward(&self, sight: &Sight<'_>, glance: &Glance, starts: &[f64], looks: &mut Vec<Look>) {
-        let (least, most) = (LEAST_MOVED * PROMISING * sight.excess, MOST_MOVED * sight.excess);
+        let (least, most) = (LEAST_MOVED * sight.sought.least(), MOST_MOVED * sight.sought.excess);
         let (mut low, mut high) = (0, starts.len());
         let mut seen: Vec<Option<Look>> = starts.iter().map(|_| None).collect();
         while low < high {
@@ -300,7 +332,7 @@ impl Looks<'_> {
         let all = |at: &[f64]| self.all(&glance, at);
         let of = (glance.set.as_slice(), &glance.candidate);
         let starts = blur::sharpened(self.bench, self.blurred, of, &glance.afar, &all);
-        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let near = Sight { bench: self.bench, here: &glance.beside.here, sought: self.sought };
         let starts = starts.unwrap_or_else(|| vec![glance.at.clone()]);
         let starts = starts.iter().chain(&glance.candidate.shown);
         let looks = starts.filter_map(|start| self.look(&near, &glance, start)).collect();
@@ -315,7 +347,7 @@ impl Looks<'_> {
         if glance.candidate.effect.id != "breakaway-friction" {
             return Some(glance);
         }
-        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let near = Sight { bench: self.bench, here: &glance.beside.here, sought: self.sought };
         let starts = [&glance.at].into_iter().chain(&glance.others).map(|start| start[0]);
         let each = starts.flat_map(|start| (-STEPS..=STEPS).map(move |step| start * STEP.powi(step)));
         let looks = each.filter_map(|at| self.look(&near, &glance, &[at])).collect();
@@ -325,7 +357,7 @@ impl Looks<'_> {
     /// A few steps downhill, and whether that is worth a closer look.
     pub fn fit(&self, glance: Glance) -> Option<Glance> {
         let glance = self.downhill(self.sharpened(self.about(glance)?)?)?;
-        Some(Glance { is_promising: glance.gain > PROMISING * self.excess, ..glance })
+        Some(Glance { is_promising: glance.gain > self.sought.least(), ..glance })
     }
 
     /// Where it costs least of what is found from its best starts.
@@ -346,7 +378,7 @@ impl Looks<'_> {
     /// The same with what it promises there, standing where it does.
     pub fn promised(&self, glance: Glance) -> Option<Glance> {
         let glance = self.again(glance);
-        let near = Sight { bench: self.bench, here: &glance.beside.here, excess: self.excess };
+        let near = Sight { bench: self.bench, here: &glance.beside.here, sought: self.sought };
         let promise = self.look(&near, &glance, &glance.at)?.promise;
         Some(Glance { promise, ..glance })
     }

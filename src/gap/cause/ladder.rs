@@ -10,6 +10,7 @@ use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
 use super::class::coincidence;
 use super::dropped::{drop_idle, drop_unknown, leave_alone_what_lets_go};
+use super::glance::Sought;
 use super::remainder::{Left, left_by};
 use super::rung::{beneath, beneath_others, rung};
 use super::two::step_by_two;
@@ -231,7 +232,10 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     let weighed = bench.with(&subject);
     let Some(standing) = Standing::of_trial(&weighed, &below) else { return Rung::Left };
     let excess = standing.excess(below.cost).max(beneath);
-    let rivals = rung(&weighed, &below, excess, is_asked, &|_| true, tell);
+    // Where nothing but its rounding shows that anything is off, the first effect must be the cause of most of that.
+    let beyond = if below.set.is_empty() { ladder.beyond_rounding } else { 0.0 };
+    let sought = if beyond > 0.0 { Sought::of_one(excess, MOST_OF_IT) } else { Sought::in_parts(excess) };
+    let rivals = rung(&weighed, &below, sought, is_asked, &|_| true, tell);
     ladder.tried += rivals.len();
     let choices = choose(bench, &weighed, &below, &rivals);
     let gain = |trial: &Trial| below.cost - trial.cost;
@@ -241,8 +245,6 @@ fn step(bench: &Bench<'_>, ladder: &mut Ladder, is_asked: &(dyn Fn(&str) -> bool
     if below.set.is_empty() {
         ladder.singles = rivals;
     }
-    // Where nothing but its rounding shows that anything is off, the first effect must be the cause of most of that.
-    let beyond = if below.set.is_empty() { ladder.beyond_rounding } else { 0.0 };
     let takes_most = |next: &Trial| {
         let next = bench.trial(&next.set, next.at.clone());
         next.is_some_and(|next| plain.cost - next.cost >= MOST_OF_IT * beyond)

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use super::bench::{Bench, Trial};
 use super::blur;
 use super::candidate::Candidate;
-use super::glance::{Glance, Looks};
+use super::glance::{Glance, Looks, Sought};
 use super::ladder::{NEAR_THE_BEST, Progress, Standing, Tell, anew};
 use super::library;
 use super::masked::masked;
@@ -36,7 +36,7 @@ const FALLS_SHORT: f64 = 0.5;
 pub fn rung(
     bench: &Bench<'_>,
     below: &Trial,
-    excess: f64,
+    sought: Sought,
     is_asked: &(dyn Fn(&str) -> bool + Sync),
     is_admitted: &dyn Fn(&Candidate) -> bool,
     tell: &Tell<'_>,
@@ -46,12 +46,12 @@ pub fn rung(
     let score = bench.subject.score(&prediction);
     let mut library = candidates_beside(bench, below, (&prediction, &score), is_asked);
     library.retain(is_admitted);
-    let hidden = masked(bench, below, excess, &library);
+    let hidden = masked(bench, below, sought.excess, &library);
     let blurred = blur::blurred(bench.subject, &score);
-    let is_smooth = !bench.is_rugged() && is_in_levels(&score, excess);
+    let is_smooth = !bench.is_rugged() && is_in_levels(&score, sought.excess);
     let afar = blurred.first().filter(|_| !is_smooth).map(|subject| (subject, subject.residuals(&prediction)));
-    let whole = Looks { bench, below, tangent, blurred: &blurred, afar, excess, is_smooth };
-    let early = is_smooth.then(|| Early::of(bench, below, excess)).flatten();
+    let whole = Looks { bench, below, tangent, blurred: &blurred, afar, sought, is_smooth };
+    let early = is_smooth.then(|| Early::of(bench, below, sought)).flatten();
     let early_bench = early.as_ref().map(|early| bench.of_part(&early.subject));
     let early_looks = early.as_ref().zip(early_bench.as_ref()).and_then(|(early, bench)| early.looks(bench));
     let (looks, is_part) = (early_looks.as_ref().unwrap_or(&whole), early_looks.is_some());
@@ -77,7 +77,7 @@ pub fn rung(
     let fitted = glances.into_par_iter().with_max_len(1).filter_map(|glance| match is_worth_a_fit(&glance) {
         true => {
             let fitted = looks.fit(glance)?;
-            counter.count(Some((&fitted.candidate, fitted.gain / looks.excess)));
+            counter.count(Some((&fitted.candidate, fitted.gain / looks.sought.excess)));
             Some(fitted)
         }
         false => {
@@ -93,7 +93,8 @@ pub fn rung(
     let is_near = |glance: &Glance| glance.is_promising && (bench.is_rugged() || glance.gain > NEAR_THE_BEST * most);
     let nuisances = below.at.iter().zip(&below.ranges).skip(below.parameters());
     let is_strained = is_smooth && nuisances.into_iter().any(|(at, range)| *at <= range.least || *at >= range.greatest);
-    let trials = fitted.into_par_iter().with_max_len(1).filter_map(|glance| {
+    let is_answer = |glance: &Glance| !sought.is_of_one() || glance.is_promising || glance.gain > sought.least();
+    let trials = fitted.into_par_iter().with_max_len(1).filter(is_answer).filter_map(|glance| {
         let is_near = is_near(&glance);
         let glance = match is_part {
             true => whole.again(if is_near { looks.closely(glance)? } else { glance }),
@@ -174,7 +175,8 @@ pub fn beneath(bench: &Bench<'_>, below: &Trial, least: f64, is_asked: &(dyn Fn(
         return None;
     }
     let tangent = Tangent::new(bench, below)?;
-    let looks = Looks { bench, below, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true };
+    let looks =
+        Looks { bench, below, tangent, blurred: &[], afar: None, sought: Sought::in_parts(CLEAR), is_smooth: true };
     let is_asked = |id: &str| is_asked(id) && WITNESSES.contains(&id);
     let mut library = candidates_beside(bench, below, (&prediction, &score), &is_asked);
     library.retain(|candidate| candidate.place != EffectPlace::ReportLink && candidate.place != EffectPlace::Sensor);
@@ -186,7 +188,15 @@ pub fn beneath(bench: &Bench<'_>, below: &Trial, least: f64, is_asked: &(dyn Fn(
     let first = there.trial(&below.set, below.at.clone()).filter(|_| is_alike);
     let early = first.as_ref().and_then(|below| {
         let tangent = Tangent::new(&there, below)?;
-        Some(Looks { bench: &there, below, tangent, blurred: &[], afar: None, excess: CLEAR, is_smooth: true })
+        Some(Looks {
+            bench: &there,
+            below,
+            tangent,
+            blurred: &[],
+            afar: None,
+            sought: Sought::in_parts(CLEAR),
+            is_smooth: true,
+        })
     });
     let promising = |candidate| {
         let glance = match &early {
@@ -333,26 +343,26 @@ const ENOUGH_EARLY: f64 = 300.0;
 struct Early {
     subject: Subject,
     below: Trial,
-    excess: f64,
+    sought: Sought,
 }
 
 impl Early {
     /// `None` where it does not show enough of what there is to explain.
-    fn of(bench: &Bench<'_>, below: &Trial, excess: f64) -> Option<Early> {
+    fn of(bench: &Bench<'_>, below: &Trial, sought: Sought) -> Option<Early> {
         let all = Standing::of_trial(bench, below)?.excess(below.cost);
         let subject = bench.subject.early(EARLY);
         let there = bench.of_part(&subject);
         let first = there.trial(&below.set, below.at.clone())?;
         let share = Standing::of_trial(&there, &first)?.excess(first.cost) / all;
-        let shows = share >= LEAST_EARLY && share * excess >= ENOUGH_EARLY;
-        shows.then_some(Early { subject, below: first, excess: share * excess })
+        let shows = share >= LEAST_EARLY && share * sought.excess >= ENOUGH_EARLY;
+        shows.then_some(Early { subject, below: first, sought: Sought { excess: share * sought.excess, ..sought } })
     }
 
     /// The looks at it; `bench` is of its subject.
     fn looks<'a>(&'a self, bench: &'a Bench<'a>) -> Option<Looks<'a>> {
         let tangent = Tangent::new(bench, &self.below)?;
-        let excess = self.excess;
-        Some(Looks { bench, below: &self.below, tangent, blurred: &[], afar: None, excess, is_smooth: true })
+        let sought = self.sought;
+        Some(Looks { bench, below: &self.below, tangent, blurred: &[], afar: None, sought, is_smooth: true })
     }
 }
 
@@ -409,7 +419,8 @@ mod tests {
             let bare = Bare::new(&subject, &nominal);
             let bench = Bench::new(&subject, bare.nuisances.clone(), &stop);
             let below = bench.trial(&[], bare.at.clone()).expect("a trial");
-            let rivals = rung(&bench, &below, below.cost, &|id| id == "viscous-friction", &|_| true, &|_| {});
+            let rivals =
+                rung(&bench, &below, Sought::in_parts(below.cost), &|id| id == "viscous-friction", &|_| true, &|_| {});
             let [found] = rivals.as_slice() else { panic!("{}", rivals.len()) };
             let is_found = found.cost < 0.05 * below.cost && (found.at[0] / coefficient - 1.0).abs() < 0.1;
             assert!(is_found, "{coefficient}: {:?} {} of {}", found.at, found.cost, below.cost);

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
+use super::glance::Sought;
 use super::ladder::{Ladder, MOST_EFFECTS, MOST_INFLATED, Standing, Tell, anew, is_worth_having, settle};
 use super::rung::{library_beside, rung};
 use super::tangent::{orthonormal, product, take_out};
@@ -49,7 +50,8 @@ pub fn step_by_two(
     if standing.excess(below.cost) < LEAST_LEFT * (bare.cost - standing.floor.0) {
         return false;
     }
-    let beside = |stone: &Trial| rung(&weighed, stone, standing.excess(stone.cost), is_asked, &|_| true, tell);
+    let beside =
+        |stone: &Trial| rung(&weighed, stone, Sought::in_parts(standing.excess(stone.cost)), is_asked, &|_| true, tell);
     let Some(library) = library_beside(&weighed, &below, is_asked) else { return false };
     let tried = library.len();
     let Some(about) = About::new(&weighed, &below) else { return false };
