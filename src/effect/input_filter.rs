@@ -68,19 +68,22 @@ impl Filter {
     }
 }
 
-/// A filtered command: a staircase about the filter's own exit, with a step every [`STEP_S`] whatever the spans in which time
-/// passes, each of the height that the exit has in the step's middle.
+/// A filtered command: a staircase about the filter's own exit, from the command's instant on, each step as high as the exit is on average over it.
+/// Its steps are fine beside the time constant at first and grow as the exit flattens, whatever the spans in which time passes.
 #[derive(Clone, Debug, Default)]
 struct Steps {
     input: Option<f64>,
+    /// The filter's exit, and the step's.
     output: f64,
     exit: f64,
-    /// How many steps there have been.
-    count: u64,
+    /// When the command came, and when the present step ends, s.
+    since: f64,
+    until: f64,
 }
 
-/// From one step to the next, s.
+/// The longest step, s, and the first, in time constants.
 const STEP_S: f64 = 1e-3;
+const FIRST_STEP: f64 = 0.125;
 
 impl Steps {
     fn pass(&mut self, value: f64, now: f64, span: f64, time_constant: f64) -> f64 {
@@ -90,10 +93,16 @@ impl Steps {
         };
         // A command stands until it changes.
         self.output = follow(self.output, Course::straight(from, from), span, time_constant);
-        let count = ((now + SAME_INSTANT_S) / STEP_S) as u64;
-        if count != self.count {
-            self.count = count;
-            self.exit = follow(self.output, Course::straight(value, value), 0.5 * STEP_S, time_constant);
+        if value != from {
+            self.since = now;
+        }
+        let has_ended = self.exit != value && now + SAME_INSTANT_S >= self.until;
+        if value != from || has_ended {
+            let flatter = ((now - self.since) / time_constant).exp();
+            let step = STEP_S.min(FIRST_STEP * time_constant * flatter).max(2.0 * SAME_INSTANT_S);
+            self.until = now + step;
+            let steps = step / time_constant;
+            self.exit = value - (self.output - value) * (-steps).exp_m1() / steps;
             if (self.exit - value).abs() < 1e-12 {
                 (self.output, self.exit) = (value, value);
             }
@@ -102,7 +111,7 @@ impl Steps {
     }
 
     fn next(&self) -> Option<f64> {
-        (self.input != Some(self.exit)).then(|| (self.count + 1) as f64 * STEP_S)
+        (self.input != Some(self.exit)).then_some(self.until)
     }
 }
 
@@ -162,8 +171,8 @@ impl Stage for InputFilter {
         visit(self.last);
         match &self.filter {
             Filter::Low { input, output, .. } => input.iter().chain(output).for_each(|number| visit(*number)),
-            Filter::Steps(Steps { input, output, exit, .. }) => {
-                input.iter().chain([output, exit]).for_each(|number| visit(*number));
+            Filter::Steps(Steps { input, output, exit, since, until }) => {
+                input.iter().chain([output, exit, since, until]).for_each(|number| visit(*number));
             }
             Filter::Stand { mail, stood } => {
                 mail.state(visit);
@@ -186,6 +195,21 @@ mod tests {
         belt.check(&[("velocityTarget", 0.5)], 1.0, &[]);
         let exact = 0.5 * (1.0 - (-1.999_f64).exp());
         assert!((belt.report("velocityActual") - exact).abs() < 1e-6, "{}", belt.report("velocityActual"));
+    }
+
+    /// A motor that follows at once has gone v·(t − T·(1 − e^(−t/T))), however short the filter, and whenever the command comes.
+    #[test]
+    fn a_number_is_filtered_from_the_instant_of_its_command() {
+        for (time, before) in [(2e-3, 0.1004), (1e-4, 0.10093), (0.05, 0.1007)] {
+            let filter = spec("command-link", "input-filter", Some("speedTarget"), &[("time_constant", time)]);
+            let set = [("acceleration", "1e9"), ("countsPerRevolution", "1000000")];
+            let mut motor = with("EncoderMotor", &set, &[filter]);
+            motor.check(&[("speedTarget", 0.0), ("enable", 1.0)], before, &[]);
+            motor.check(&[("speedTarget", 10.0)], 0.02, &[]);
+            let angle = motor.report("encoder") / 1e6 * std::f64::consts::TAU;
+            let exact = 10.0 * (0.02 - time * (1.0 - (-0.02 / time).exp()));
+            assert!((angle - exact).abs() < 1.5e-5, "{angle}, not {exact}");
+        }
     }
 
     /// A count is a number, too: at 10 rad/s it is behind by what passes in the time, and a filter of next to no time stops nothing.
