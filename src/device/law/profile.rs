@@ -101,15 +101,15 @@ impl Profile {
 
     /// Present position: the target itself once the plan has ended.
     pub fn position(&self) -> f64 {
-        self.now().map_or(self.target, |(segment, seconds)| segment.position(seconds))
+        self.motion().position
     }
 
     /// Present velocity: 0 once the plan has ended.
     pub fn velocity(&self) -> f64 {
-        self.now().map_or(0.0, |(segment, seconds)| segment.velocity(seconds))
+        self.motion().velocity
     }
 
-    /// Both.
+    /// Present position and velocity.
     pub fn motion(&self) -> Motion {
         let there = Motion { position: self.target, velocity: 0.0 };
         self.now().map_or(there, |(segment, seconds)| Motion {

@@ -34,7 +34,7 @@ impl Sought {
 
     /// Of which one effect must be the cause of the `share`.
     pub fn of_one(excess: f64, share: f64) -> Sought {
-        Sought { excess, share: share.max(PROMISING) }
+        Sought { excess, share }
     }
 
     /// Whether what explains less is no answer at all.
