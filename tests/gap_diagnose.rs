@@ -201,6 +201,21 @@ fn a_delay_of_all_reports_beside_an_effect_is_their_age() {
     assert_eq!((cause.effect.as_str(), cause.component.as_deref()), ("wrong-unit", Some("positionTarget")));
 }
 
+/// A motor with play, which nobody can tell from an encoder that sticks as far: both explained as much when they were found, and the one that came second, of a
+/// cost that differs by a millionth, was weighed where it had stood then.
+#[test]
+fn what_explained_as_much_is_fitted_as_closely() {
+    let plant = model::load("tests/data/motor-with-play/plant.xml").expect("the plant");
+    let train = vec![read(&plant, "tests/data/motor-with-play/train.cps.jsonl.zst")];
+    let options =
+        Options { is_asked: &|_| true, is_meant: &|name| name == "M12_Roller", is_stopped: &|| false, tell: &|_| {} };
+    let report = diagnose(&plant, &train, &train, &options).expect("a diagnosis").report;
+    assert_eq!((report.verdict, report.cause.len()), (Verdict::Ambiguous, 1), "{}", report.to_json());
+    let mut class: Vec<&str> = report.cause[0].class.iter().map(|member| member.effect.as_str()).collect();
+    class.sort_unstable();
+    assert_eq!(class, ["backlash", "hysteresis"]);
+}
+
 /// A cylinder that each other drive slows down, by 0.0422: among edges a search ends beside that, and five candidates seem to explain more.
 #[test]
 fn among_edges_more_than_the_three_best_are_refitted() {

@@ -64,14 +64,17 @@ impl Filter {
         if site.is_boolean() || site.is_whole() {
             return Filter::Stand { mail: Mail::default(), stood: None };
         }
-        Filter::Steps(Steps::default())
+        Filter::Steps(Steps { shows: site.has_dynamics(), ..Steps::default() })
     }
 }
 
 /// A filtered command: a staircase about the filter's own exit, from the command's instant on, each step as high as the exit is on average over it.
-/// Its steps are fine beside the time constant at first and grow as the exit flattens, whatever the spans in which time passes.
+/// Its steps are fine beside the time constant at first and grow as the exit flattens, whatever the spans in which time passes. A servo axis pulls by how far it is
+/// off its target, and its force would show every step: at an instant at which one is looked at within a step, it is told the exit itself.
 #[derive(Clone, Debug, Default)]
 struct Steps {
+    /// Whether its device shows at once what it is told.
+    shows: bool,
     input: Option<f64>,
     /// The filter's exit, and the step's.
     output: f64,
@@ -83,7 +86,7 @@ struct Steps {
 
 /// The longest step, s, and the first, in time constants.
 const STEP_S: f64 = 1e-3;
-const FIRST_STEP: f64 = 0.125;
+const FIRST_STEP: f64 = 1.0 / 32.0;
 
 impl Steps {
     fn pass(&mut self, value: f64, now: f64, span: f64, time_constant: f64) -> f64 {
@@ -106,6 +109,8 @@ impl Steps {
             if (self.exit - value).abs() < 1e-12 {
                 (self.output, self.exit) = (value, value);
             }
+        } else if self.shows && self.exit != value && span > 0.0 {
+            (self.exit, self.until) = (self.output, now + 2.0 * SAME_INSTANT_S);
         }
         self.exit
     }
@@ -171,7 +176,7 @@ impl Stage for InputFilter {
         visit(self.last);
         match &self.filter {
             Filter::Low { input, output, .. } => input.iter().chain(output).for_each(|number| visit(*number)),
-            Filter::Steps(Steps { input, output, exit, since, until }) => {
+            Filter::Steps(Steps { shows: _, input, output, exit, since, until }) => {
                 input.iter().chain([output, exit, since, until]).for_each(|number| visit(*number));
             }
             Filter::Stand { mail, stood } => {
@@ -209,6 +214,31 @@ mod tests {
             let angle = motor.report("encoder") / 1e6 * std::f64::consts::TAU;
             let exact = 10.0 * (0.02 - time * (1.0 - (-0.02 / time).exp()));
             assert!((angle - exact).abs() < 1.5e-5, "{angle}, not {exact}");
+        }
+    }
+
+    /// The force of a servo axis whose target passes a filter is that of one whose target goes as the filter's exit does, whenever it is looked at.
+    #[test]
+    fn a_filtered_target_pulls_as_smoothly_as_the_filter_lets_it() {
+        const LOOK_S: f64 = 0.0203;
+        const FINE_S: f64 = 5e-5;
+        let (time, target) = (0.15, 0.3);
+        let filter = spec("command-link", "input-filter", Some("positionTarget"), &[("time_constant", time)]);
+        let mut filtered = with("ServoAxis", &[], &[filter]);
+        let mut told = with("ServoAxis", &[], &[]);
+        filtered.check(&[("positionTarget", 0.0)], 0.1, &[]);
+        told.check(&[("positionTarget", 0.0)], 0.1, &[]);
+        let exit = |at: f64| target * (1.0 - (-at / time).exp());
+        for look in 0..20 {
+            filtered.check(&[("positionTarget", target)], LOOK_S, &[]);
+            let steps = (LOOK_S / FINE_S).round() as usize;
+            for step in 0..steps {
+                let at = f64::from(look) * LOOK_S + (step as f64 + 0.5) * FINE_S;
+                told.check(&[("positionTarget", exit(at))], FINE_S, &[]);
+            }
+            let (found, exact) = (filtered.report("force"), told.report("force"));
+            let pull = 0.5 * FINE_S * target / time;
+            assert!((found - exact).abs() < 0.1 + 20_000.0 * pull, "{look}: {found}, not {exact}");
         }
     }
 

@@ -6,6 +6,7 @@ use std::io::{BufRead, BufReader};
 use super::{Recording, Study};
 use crate::device::KINDS;
 use crate::plant::{self, Plant, embedded::Embedded};
+use crate::prototype::source::{Layered, Memory};
 use crate::trace::Reader;
 
 /// A pusher that is a per cent slow beside a motor and a gripper that are as they should be.
@@ -30,6 +31,8 @@ pub const PULLED_AXIS: &str = "tests/data/axis-that-is-pulled-a-little.cps.jsonl
 pub const OFF_LATE: &str = "tests/data/pusher-whose-switch-goes-off-late.cps.jsonl.zst";
 /// A gripper that leaks, and whose commands jitter by 21 ms, beside a robot.
 pub const LEAKING_GRIPPER: &str = "tests/data/gripper-that-leaks-and-jitters.cps.jsonl.zst";
+/// A gripper that leaks, beside a robot whose arrivals are seen once they have stood for 1 ms.
+pub const LEAK_BEHIND_A_FILTER: &str = "tests/data/gripper-that-leaks-behind-a-filter.cps.jsonl.zst";
 /// A robot whose reports are 68 µs late, beside a motor and an axis whose are 532 µs old.
 pub const LATE_ROBOT: &str = "tests/data/robot-whose-reports-are-late.cps.jsonl.zst";
 /// A pusher whose switch at the retracted end is blind over 100 mm and so never comes again, beside a motor and a gripper.
@@ -40,6 +43,17 @@ pub const BLIND_BARRIER: &str = "tests/data/belt-whose-barrier-is-blind.cps.json
 pub const LAGGING_ROBOT: &str = "tests/data/robot-whose-axis-lags-a-little.cps.jsonl.zst";
 /// A belt whose parts slip on it beyond 0.2 m/s², beside a motor.
 pub const SLIPPING_PARTS: &str = "tests/data/belt-whose-parts-slip.cps.jsonl.zst";
+
+/// What a recording in a folder of `tests/data` says of the plant beside it.
+pub fn study_of_folder(folder: &str) -> Study {
+    let (path, trace) = (format!("{folder}/plant.xml"), format!("{folder}/train.cps.jsonl.zst"));
+    let text = std::fs::read_to_string(&path).expect("the plant's file");
+    let plant =
+        plant::load(&Layered(Memory([(path.clone(), text)].into()), Embedded), &path, KINDS).expect("the plant");
+    let reader = Reader::new(&trace, BufReader::new(File::open(&trace).expect("the recording"))).expect("a trace");
+    let recording = Recording::read(&plant, &trace, reader, &[]).expect("a recording");
+    Study::new(&plant, &[recording]).expect("a study")
+}
 
 /// The rig that was recorded.
 pub fn rig() -> Plant {

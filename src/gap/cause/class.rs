@@ -47,6 +47,9 @@ pub struct Answer {
 /// noise does to the difference.
 const NEAR: f64 = 4.0 * SAME_CLASS;
 
+/// How much more than the answer, in deviance, what explains the recordings as well costs at most.
+const AS_WELL: f64 = 1.0;
+
 /// Of how many that are not so near, the best first, it is asked whether the other effects of the answer bring them there.
 const REFITTED: usize = 4;
 
@@ -159,19 +162,34 @@ fn without(bench: &Bench<'_>, best: &Trial, place: usize) -> Option<Trial> {
 
 /// Fits the candidate with all else to the answer's own output.
 fn alternative(bench: &Bench<'_>, (best, place): (&Trial, usize), trial: Trial) -> Option<Alternative> {
-    let output = bench.predict(&best.set, &best.at)?;
-    let apart = |at: &Vec<f64>| bench.apart(&output, &trial.set, at).map(|apart| (sum_of_squares(&apart), at.clone()));
-    let starts = starts(bench, (best, place), &trial);
-    let (_, nearest) = starts.iter().filter_map(apart).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    // Of the price of nominal parameters that are off, the answer itself has paid its own.
-    let paid = sum_of_squares(&bench.strain(&best.set, &best.at));
-    let distance = (bench.distance(&output, &trial.set, &nearest)? - paid).max(0.0);
+    let distance = distance(bench, best, &trial.set, &starts(bench, (best, place), &trial))?;
     let (named, last) = (&best.set[place], trial.set.last()?);
     let last_of = trial.set.len() - 1;
     let by_chance = if named.effect.id == last.effect.id { 0.0 } else { coincidence(&trial, last_of) };
-    let is_near = distance + by_chance * best.inflation() < SAME_CLASS * best.inflation();
+    let is_near = |distance: f64| distance + by_chance * best.inflation() < SAME_CLASS * best.inflation();
+    let is_near = is_near(distance) || reversed(bench, (best, place), &trial).is_some_and(is_near);
     let is_same = is_near && last.numbers() <= named.numbers();
     Some(Alternative { trial, distance, is_same, weight: 0.0 })
+}
+
+/// How far the answer's effect comes from what a candidate does that explains the recordings as well as the answer. Among flags that are seen in cycles an effect
+/// costs as much over a span of its numbers: the answer stands somewhere in its own, where the candidate may not follow it, and may well do what that does.
+fn reversed(bench: &Bench<'_>, (best, place): (&Trial, usize), trial: &Trial) -> Option<f64> {
+    if trial.cost - best.cost > AS_WELL * best.inflation() || bench.subject.has_levels() {
+        return None;
+    }
+    let answer = best.clone().with_last(place);
+    distance(bench, trial, &answer.set, &starts(bench, (trial, trial.set.len() - 1), &answer))
+}
+
+/// How far `set` comes from what `of` does, from the nearest of these starts, whitened and squared.
+fn distance(bench: &Bench<'_>, of: &Trial, set: &[Candidate], starts: &[Vec<f64>]) -> Option<f64> {
+    let output = bench.predict(&of.set, &of.at)?;
+    let apart = |at: &Vec<f64>| bench.apart(&output, set, at).map(|apart| (sum_of_squares(&apart), at.clone()));
+    let (_, nearest) = starts.iter().filter_map(apart).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    // Of the price of nominal parameters that are off, `of` has paid its own.
+    let paid = sum_of_squares(&bench.strain(&of.set, &of.at));
+    Some((bench.distance(&output, set, &nearest)? - paid).max(0.0))
 }
 
 /// Where the fit of a candidate to the answer's output may begin: where it costs least by the recordings, the same beside all else as the answer has
@@ -228,6 +246,7 @@ mod tests {
     use crate::gap::cause::axis_tests::{ending_at, report_as, rubbing_axis};
     use crate::gap::cause::library::candidates;
     use crate::gap::cause::nuisance::Nuisance;
+    use crate::gap::recorded_tests::study_of_folder;
 
     /// In a recording of a minute there are 25 000 periods of 20 ms that differ by a part of themselves at its end; a delay is one of few.
     #[test]
@@ -253,6 +272,29 @@ mod tests {
         let other = bench.trial(&rubs, vec![90.0, 20.0]).expect("a trial");
         let found = alternative(&bench, (&best, 0), other).expect("an alternative");
         assert!(found.is_same && found.distance < 1.0, "{}", found.distance);
+    }
+
+    /// A gripper that is switched on 36 ms late, reported every 20 ms: a switch that is 41.7 ms late explains as much, and would show a short grip that being switched
+    /// on so late would not make. By 36.8 ms they do the same.
+    #[test]
+    fn what_does_the_same_elsewhere_in_its_span_is_the_same() {
+        let study = study_of_folder("tests/data/gripper-told-briefly");
+        let place = study.subjects.iter().position(|subject| subject.name == "Vacuum_21").expect("it grips");
+        let (subject, bare) = (&study.subjects[place], &study.bare[place]);
+        let stop = || false;
+        let bench = Bench::new(subject, bare.nuisances.clone(), &stop);
+        let trial = |id: &str, time: f64| {
+            let all = candidates(subject, &bare.prediction, &subject.score(&bare.prediction), &|known| known == id);
+            let at = [&[time], bare.at.as_slice()].concat();
+            bench.trial(&[all.into_iter().next().expect("a candidate")], at).expect("a trial")
+        };
+        let (best, other) = (trial("on-delay", 0.041_69), trial("switch-on-delay", 0.036_79));
+        assert!((best.cost - other.cost).abs() < AS_WELL, "{} {}", best.cost, other.cost);
+        let found = alternative(&bench, (&best, 0), other).expect("an alternative");
+        assert!(found.is_same && found.distance > SAME_CLASS, "{}", found.distance);
+        // What explains less is not asked for where it would do the same.
+        let worse = alternative(&bench, (&best, 0), trial("switch-on-delay", 0.06)).expect("an alternative");
+        assert!(!worse.is_same, "{}", worse.distance);
     }
 
     /// What explains next to nothing of a gap that friction explains is not the same as friction, however little all that was recorded weighs.

@@ -17,7 +17,7 @@ use super::two::step_by_two;
 use super::unseen::{Folds, unseen};
 use crate::gap::fit::{Effort, Range, Spread, spread, sum_of_squares};
 use crate::gap::locate::beyond_rounding;
-use crate::gap::statistics::{Draws, least_gain, quantile, standing_out};
+use crate::gap::statistics::{Draws, SAME_CLASS, least_gain, quantile, standing_out};
 use crate::gap::{FAR_BEYOND, Prediction, Score, Subject, THRESHOLD, evidence, evidence_all_along, gains_with_motion};
 
 /// The most effects of one device: a late, slow, limited drive with play, and a sensor that is off.
@@ -449,7 +449,7 @@ const SURELY_LESS: f64 = 2.0;
 /// What nominal parameters must gain, in deviance, to have followed.
 const GAINED_BY_FOLLOWING: f64 = 1.0;
 
-/// The candidates alone as the device is weighed at last; those that explain the most fitted anew.
+/// The candidates alone as the device is weighed at last; those fitted anew that explain the most, or did as much as the answer before it was fitted so.
 fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
     const MOST: usize = 12;
     let weighed = bench.with(&ladder.subject);
@@ -462,14 +462,18 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
     let answer = &ladder.best.at[..ladder.best.parameters()];
     let fitted = ladder.singles.par_iter().enumerate().filter_map(|(rank, trial)| {
         let there = weighed.trial(&trial.set, trial.at.clone())?;
-        let is_near = ladder.bare.cost - there.cost > NEAR_THE_BEST * (ladder.bare.cost - ladder.best.cost);
+        let is_near = ladder.bare.cost - there.cost > NEAR_THE_BEST * (ladder.bare.cost - ladder.best.cost)
+            || of_answer.is_some_and(|answer| trial.cost < answer.cost + SAME_CLASS);
         let is_fitted = there.cost == trial.cost && !has_followed && !acts_alike(trial, &ladder.best);
-        if rank >= MOST || !is_near || is_fitted {
+        if rank >= MOST || !is_near {
             return Some(there);
+        }
+        let as_answer = weighed.carried(&trial.set, &ladder.best.overrides);
+        if is_fitted {
+            return Some(nearer(&weighed, &there, &as_answer).unwrap_or(there));
         }
         // Also from where they went for the answer: among times that are known within cycles no slope leads there. What acts by the same numbers
         // may be where the answer is.
-        let as_answer = weighed.carried(&trial.set, &ladder.best.overrides);
         let is_within = |(range, value): (&Range, &f64)| (range.least..=range.greatest).contains(value);
         let may_be_there = acts_alike(trial, &ladder.best) && trial.ranges.iter().zip(answer).all(is_within);
         let same = may_be_there.then(|| [answer, &as_answer].concat());
@@ -487,6 +491,22 @@ fn weigh_singles(bench: &Bench<'_>, ladder: &mut Ladder) {
         (ladder.best, ladder.ends) = (better, None);
     }
     ladder.singles = fitted;
+}
+
+/// Where a single number costs less about where it is, with nominal parameters that are `carried`: among flags alone no slope leads from one to the next.
+fn nearer(bench: &Bench<'_>, trial: &Trial, carried: &[f64]) -> Option<Trial> {
+    const STEP: f64 = 0.001;
+    const STEPS: i32 = 30;
+    let ([range], [number]) = (&trial.ranges[..trial.parameters()], &trial.at[..trial.parameters()]) else {
+        return None;
+    };
+    if bench.subject.has_levels() {
+        return None;
+    }
+    let each =
+        (-STEPS..=STEPS).map(|step| (number * (1.0 + STEP * f64::from(step))).clamp(range.least, range.greatest));
+    let tried = each.filter_map(|number| bench.trial(&trial.set, [&[number], carried].concat()));
+    tried.filter(|other| other.cost < trial.cost).min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
 /// Whether two single effects say what they do by numbers of the same names: a belt's slip and its parts' both by an acceleration.

@@ -194,7 +194,7 @@ pub fn find(
 ) -> Option<Chance> {
     let (subject, bare) = (&study.subjects[place], &study.bare[place]);
     if subject.is_taken_up_again() {
-        return None;
+        return lost_amid(subject, bare, is_asked);
     }
     let before = evidence(subject, &bare.prediction);
     let has_gap = before > THRESHOLD;
@@ -207,6 +207,7 @@ pub fn find(
         found.or_else(|| if has_gap && is_asked(JITTER) { late(subject, bare, before, is_stopped) } else { None });
     let by_itself = || laws.iter().find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
     let found = found.or_else(by_reading).or_else(|| if has_gap { by_itself() } else { None });
+    let found = found.or_else(|| lost_amid(subject, bare, is_asked));
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
         if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
     };
@@ -316,6 +317,15 @@ impl Readings {
         }
     }
 
+    /// Whether single reports were lost: some, and next to nothing else, amid motions that went as predicted before and behind each. Noise does nothing of the kind.
+    fn are_amid(&self) -> bool {
+        const FEWEST: usize = 3;
+        const MOST: f64 = 0.7;
+        let sum = |of: fn(&Reading) -> usize| self.each.iter().map(|(_, reading)| of(reading)).sum::<usize>();
+        let (amid, drawn) = (sum(|reading| reading.amid), sum(Reading::drawn));
+        amid >= FEWEST && amid as f64 >= MOST * drawn as f64
+    }
+
     /// Takes it out of the recordings.
     fn take_out(&self, subject: &mut Subject) {
         self.each.iter().for_each(|(signal, reading)| reading.take_out(subject, *signal, self.law));
@@ -373,6 +383,27 @@ fn taken_out_by_itself(
     found.take_out_of_all(&mut other);
     let (other, bare) = without(other, bare, None)?;
     found.named((subject, other, bare), Drawn::ByItself(law))
+}
+
+/// The device without the few reports that its link has lost, if that leaves nothing: too few of them to make a gap, or in too many levels for one of them to show it.
+fn lost_amid(subject: &Subject, bare: &Bare, is_asked: &(dyn Fn(&str) -> bool + Sync)) -> Option<Chance> {
+    if !is_asked(Law::Lost.id()) {
+        return None;
+    }
+    let is_level =
+        |signal: &usize| subject.runs.iter().flat_map(|run| &run.tracks[*signal]).any(|track| !track.values.is_empty());
+    let levels = (0..subject.signals.len()).filter(is_level);
+    let readings = Readings::of(subject, &bare.prediction, levels, Law::Lost, true);
+    if !readings.are_amid() {
+        return None;
+    }
+    let mut other = subject.clone();
+    readings.take_out(&mut other);
+    let (other, bare) = without(other, bare, None)?;
+    if evidence(&other, &bare.prediction) > THRESHOLD {
+        return None;
+    }
+    readings.named((subject, other, bare), Drawn::By(Law::Lost))
 }
 
 /// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
@@ -605,5 +636,23 @@ mod tests {
         assert_eq!(shown.bounds[0].value, again.bounds[0].value);
         let (study, place) = with_lost_reports(true);
         assert!(find(place, &study, &|id| id == "lost-messages", &|| false).is_none());
+    }
+
+    /// Three reports of a thousand: none of its signals need make a gap of them. Two may have been anything.
+    #[test]
+    fn a_few_lost_reports_are_found_that_need_make_no_gap() {
+        let lost = |times: &[usize]| {
+            let mut last = [0.0; 2];
+            let (study, place) = motor(|is_count, (k, _), _, stands| {
+                let last = &mut last[usize::from(is_count)];
+                *last = if is_count && times.contains(&k) { *last } else { stands };
+                *last
+            });
+            let found = lost_amid(&study.subjects[place], &study.bare[place], &|_| true)?;
+            let left = evidence(&found.subject, &found.bare.prediction);
+            Some((found.candidate.effect.id, left <= THRESHOLD))
+        };
+        assert_eq!(lost(&[207, 638, 1000]), Some(("lost-messages", true)));
+        assert_eq!(lost(&[207, 638]), None);
     }
 }

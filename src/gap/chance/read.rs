@@ -48,7 +48,7 @@ pub(super) struct Reading {
     telling: usize,
     drawn: usize,
     /// How many samples were lost one by one, the ones before and behind telling, and being as predicted.
-    amid: usize,
+    pub amid: usize,
     /// How long the stretches last at least and at most, s, and the cycle of the grid. Beside one that ends where nobody could see it go on
     /// it may.
     spans: Vec<[f64; 2]>,

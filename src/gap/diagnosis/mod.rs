@@ -6,6 +6,7 @@
 
 mod finding;
 mod held_out;
+mod refound;
 mod scheduled;
 mod shrink;
 mod states;
@@ -81,23 +82,11 @@ pub fn diagnose(
     options: &Options<'_>,
 ) -> Result<Diagnosis, StudyError> {
     let study = Study::new(plant, train)?;
-    let meant = study.subjects.iter().zip(&study.bare).enumerate();
-    // What a bay makes shows on the belt that it feeds: where the bay alone is meant, its belt is looked at for that.
-    let is_meant = |subject: &Subject| (options.is_meant)(&subject.id.instance(plant).name);
-    let meant = meant.filter(|(_, (subject, _))| is_meant(subject) || subject.feeder().is_some_and(options.is_meant));
-    // Where the answer is wanted before all is looked at, the largest gap has been.
-    let mut meant: Vec<_> =
-        meant.map(|(place, (subject, bare))| (evidence(subject, &bare.prediction), place, subject, bare)).collect();
-    meant.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut findings: Vec<Finding> = meant
-        .into_par_iter()
-        .with_max_len(1)
-        .filter_map(|(_, place, subject, bare)| {
-            let is_asked = |id: &str| (is_meant(subject) || subject.maker(id).is_some()) && (options.is_asked)(id);
-            finding::find(place, subject, bare, &study, &Options { is_asked: &is_asked, ..*options })
-        })
-        .collect();
-    findings.sort_by_key(|finding| finding.subject);
+    let findings = find_all(plant, &study, options);
+    let (study, findings) = match refound::beside_effects(plant, &study, &findings, options)? {
+        Some(again) => again,
+        None => (study, findings),
+    };
     let mut held_out = Study::beside(plant, held_out, &study)?;
     let too_fast = untrained::leave_out(&mut held_out, &study);
     let measured = Measured::new(plant, &held_out, &findings);
@@ -115,6 +104,28 @@ pub fn diagnose(
     report.not_testable.extend(still(&study));
     report.not_testable.extend(states::untrained(&study, &held_out));
     Ok(Diagnosis { report, findings, held_out })
+}
+
+/// What is found of each device that is meant, in the study's order.
+fn find_all(plant: &Plant, study: &Study, options: &Options<'_>) -> Vec<Finding> {
+    let meant = study.subjects.iter().zip(&study.bare).enumerate();
+    // What a bay makes shows on the belt that it feeds: where the bay alone is meant, its belt is looked at for that.
+    let is_meant = |subject: &Subject| (options.is_meant)(&subject.id.instance(plant).name);
+    let meant = meant.filter(|(_, (subject, _))| is_meant(subject) || subject.feeder().is_some_and(options.is_meant));
+    // Where the answer is wanted before all is looked at, the largest gap has been.
+    let mut meant: Vec<_> =
+        meant.map(|(place, (subject, bare))| (evidence(subject, &bare.prediction), place, subject, bare)).collect();
+    meant.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut findings: Vec<Finding> = meant
+        .into_par_iter()
+        .with_max_len(1)
+        .filter_map(|(_, place, subject, bare)| {
+            let is_asked = |id: &str| (is_meant(subject) || subject.maker(id).is_some()) && (options.is_asked)(id);
+            finding::find(place, subject, bare, study, &Options { is_asked: &is_asked, ..*options })
+        })
+        .collect();
+    findings.sort_by_key(|finding| finding.subject);
+    findings
 }
 
 /// Whether an entry is of the device that was looked at.

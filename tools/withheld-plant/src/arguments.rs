@@ -68,6 +68,9 @@ pub struct Practice {
     /// Cases of this effect alone, by its id, clear and gross in turn: intermittent, x-filter-clogs
     #[arg(long, value_name = "ID")]
     pub effect: Option<String>,
+    /// Of all these cases only those of these numbers, under the names that they have among all: to make one of an exam again
+    #[arg(long, value_name = "N", value_delimiter = ',', num_args = 1..)]
+    pub only: Vec<usize>,
 }
 
 #[derive(Debug, Args)]

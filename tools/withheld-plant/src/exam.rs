@@ -52,6 +52,9 @@ pub enum ExamError {
     /// The answers have no JSON form.
     #[error("failed to write the answers as JSON")]
     Json(#[from] serde_json::Error),
+    /// A case that is not among them.
+    #[error("--only {number}: expected a number from 1 to {cases}, the number of cases")]
+    NoSuchCase { number: usize, cases: usize },
     #[error("no effect of the catalogue is called {0}: expected an id such as intermittent or x-filter-clogs")]
     NoSuchEffect(String),
 }
@@ -128,7 +131,7 @@ fn cases(asked: &Cases) -> Result<String, ExamError> {
     let is_short = asked.exam == Exam::Short && asked.cases.is_none();
     let sites = if is_short { Sites::Rig } else { Sites::All };
     let conditions = Conditions { classless: asked.no_classes, ..Conditions::default() };
-    let made = make(&asked.folder, plans(sizes, sites, begun.seed), conditions, Some(&draft))?;
+    let made = make(&asked.folder, &plans(sizes, sites, begun.seed), &[], conditions, Some(&draft))?;
     draft.seal(&answers(asked.exam.name(), begun.seed, made)?)?;
     Ok(format!("{} cases in {}, the key of their answers in {}", sizes.sum(), asked.folder.display(), key.display()))
 }
@@ -143,10 +146,15 @@ fn practice(asked: &Practice) -> Result<String, ExamError> {
         Some(effect) => of_effect(effect, asked.cases, asked.on, asked.seed)
             .ok_or_else(|| ExamError::NoSuchEffect(effect.clone()))?,
     };
+    let cases = plans.len();
+    if let Some(&number) = asked.only.iter().find(|&&number| number == 0 || number > cases) {
+        return Err(ExamError::NoSuchCase { number, cases });
+    }
     is_new(&asked.out)?;
-    let made = make(&asked.out, plans, conditions, None)?;
+    let made = make(&asked.out, &plans, &asked.only, conditions, None)?;
+    let cases = made.len();
     write(&asked.answers, &answers("practice", asked.seed, made)?)?;
-    Ok(format!("{} cases in {}, their answers in {}", asked.cases, asked.out.display(), asked.answers.display()))
+    Ok(format!("{cases} cases in {}, their answers in {}", asked.out.display(), asked.answers.display()))
 }
 
 fn open(asked: &Open) -> Result<String, ExamError> {
@@ -160,17 +168,21 @@ fn is_new(folder: &Path) -> Result<(), ExamError> {
     if folder.exists() { Err(ExamError::Exists { path: folder.to_owned() }) } else { Ok(()) }
 }
 
-/// Makes all cases, but for those whose answers `draft` has kept; gives all answers, in the order of the cases.
+/// Makes the cases of `only`, counted from 1, or all where it is empty, but for those whose answers `draft` has kept; gives all answers, in
+/// the order of the cases.
 fn make(
     folder: &Path,
-    plans: Vec<Plan>,
+    plans: &[Plan],
+    only: &[usize],
     conditions: Conditions,
     draft: Option<&Draft>,
 ) -> Result<Vec<Answer>, ExamError> {
     let digits = plans.len().to_string().len().max(3);
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let make = |number: usize, plan: &Plan| -> Result<Answer, ExamError> {
-        let case = format!("case-{:0digits$}", number + 1);
+    let asked: Vec<(usize, &Plan)> =
+        (1..).zip(plans).filter(|(number, _)| only.is_empty() || only.contains(number)).collect();
+    let make = |&(number, plan): &(usize, &Plan)| -> Result<Answer, ExamError> {
+        let case = format!("case-{number:0digits$}");
         if let Some(kept) = draft.map(|draft| draft.kept(&case)).transpose()?.flatten() {
             return Ok(serde_json::from_slice(&kept)?);
         }
@@ -185,7 +197,7 @@ fn make(
     let next = AtomicUsize::new(0);
     let worker = || {
         let numbers = std::iter::from_fn(|| Some(next.fetch_add(1, Ordering::Relaxed)));
-        numbers.map_while(|number| Some(make(number, plans.get(number)?))).collect::<Vec<_>>()
+        numbers.map_while(|index| asked.get(index).map(make)).collect::<Vec<_>>()
     };
     let made = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..workers).map(|_| scope.spawn(worker)).collect();

@@ -112,6 +112,8 @@ pub struct Plant {
     moving: Vec<usize>,
     /// How many drives of each device moved, from when on: as it has run so far.
     pub moved: Vec<(f64, Vec<usize>)>,
+    /// Whether its counters tell parts of a count.
+    tells_parts: bool,
 }
 
 impl Plant {
@@ -131,6 +133,7 @@ impl Plant {
             come: 0,
             moving: Vec::new(),
             moved: Vec::new(),
+            tells_parts: false,
         }
     }
 
@@ -153,6 +156,7 @@ impl Plant {
 
     /// With counters that tell parts of a count.
     pub fn telling_parts(mut self) -> Plant {
+        self.tells_parts = true;
         self.devices.iter_mut().for_each(|(_, device)| device.tell_parts());
         self
     }
@@ -162,7 +166,7 @@ impl Plant {
     pub fn run(&mut self, commands: &[Command], samples: &[f64], watched: &[bool], end: f64) -> Vec<Stream> {
         let mut running = self.begin(commands, samples, watched, end);
         running.until(f64::INFINITY);
-        running.streams
+        running.seen()
     }
 
     /// The same, to be run a piece at a time.
@@ -176,7 +180,14 @@ impl Plant {
         let streams = self.signals.iter().map(|signal| Stream::new(signal.kind.is_edge())).collect();
         let is_kept: Vec<bool> =
             self.signals.iter().zip(watched).map(|(signal, watched)| *watched || signal.kind.is_edge()).collect();
-        Running { plant: self, commands, samples, is_kept, end, now: 0.0, values: Vec::new(), streams }
+        let is_count = |signal: &Signal| signal.kind == Kind::Count && !self.tells_parts;
+        let counts: Vec<bool> = self.signals.iter().map(is_count).collect();
+        let are_watched = counts.iter().zip(&is_kept).any(|(count, kept)| *count && *kept);
+        // What a link does to a count it does to whole counts, each when it is reached: which a counter's parts say.
+        if are_watched {
+            self.devices.iter_mut().for_each(|(_, device)| device.tell_parts());
+        }
+        Running { plant: self, commands, samples, is_kept, counts, end, now: 0.0, values: Vec::new(), streams }
     }
 
     /// What all sensors see, in the order of the signals.
@@ -221,6 +232,8 @@ pub struct Running<'a> {
     commands: &'a [Command],
     samples: &'a [f64],
     is_kept: Vec<bool>,
+    /// Which are whole counts.
+    counts: Vec<bool>,
     end: f64,
     now: f64,
     values: Vec<f64>,
@@ -229,6 +242,13 @@ pub struct Running<'a> {
 }
 
 impl Running<'_> {
+    /// What each sensor has seen.
+    pub fn seen(self) -> Vec<Stream> {
+        let each = self.streams.into_iter().zip(self.is_kept.iter().zip(&self.counts));
+        each.map(|(stream, (is_kept, is_count))| if *is_kept && *is_count { stream.counted() } else { stream })
+            .collect()
+    }
+
     /// Runs on, to the first step that ends at `time` or later, or to its end; whether it has come there.
     pub fn until(&mut self, time: f64) -> bool {
         let is_any_kept = self.is_kept.contains(&true);
@@ -243,9 +263,10 @@ impl Running<'_> {
             self.samples = due.map_or(self.samples, |(_, rest)| rest);
             if is_sample || is_any_kept {
                 self.plant.read(self.now, &mut self.values);
-                for ((stream, value), is_kept) in self.streams.iter_mut().zip(&self.values).zip(&self.is_kept) {
+                let each = self.streams.iter_mut().zip(&self.values).zip(self.is_kept.iter().zip(&self.counts));
+                for ((stream, value), (is_kept, is_count)) in each {
                     if is_sample || *is_kept {
-                        stream.push(self.now, *value);
+                        stream.push(self.now, if *is_count && !is_kept { value.floor() } else { *value });
                     }
                 }
             }
@@ -278,6 +299,6 @@ mod tests {
         let mut plant = rig.plant(&[], 1);
         let mut running = plant.begin(&commands, &samples, &watched, 2.0);
         assert!(!running.until(0.5) && !running.until(1.23456) && running.until(f64::INFINITY));
-        assert!(running.streams == whole);
+        assert!(running.seen() == whole);
     }
 }

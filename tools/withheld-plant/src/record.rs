@@ -138,7 +138,7 @@ pub fn taken(script: &[Command], plant: &Plant, around: &Surroundings, end: f64,
             .for_each(|command| stream.push(command.at, command.value));
         let of_device = Quirks::of(quirks, device);
         for quirk in of_device.at("command-link", port) {
-            stream = stream.through(quirk, *kind, dice, end);
+            stream = stream.through(quirk, *kind, dice, end).in_steps();
         }
         let name = arrives_at(quirks, name);
         let value = |value: f64| if *kind == Kind::Code { value.round() } else { value };
@@ -334,7 +334,9 @@ impl<'a> Reporter<'a> {
 fn value(kind: Kind, number: f64) -> Value {
     match kind {
         Kind::Flag => Value::Bool(number != 0.0),
-        Kind::Code | Kind::Count => Value::Dint(number as i32),
+        Kind::Code => Value::Dint(number as i32),
+        // A counter does not count the other way round below 0.
+        Kind::Count => Value::Dint(number.floor() as i32),
         // Rounding to a grid and to REAL: the shortest text of the REAL is what is written.
         Kind::Level => Value::Real(number as f32 + 0.0),
     }

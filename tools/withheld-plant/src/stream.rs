@@ -5,8 +5,9 @@ use crate::plant::Kind;
 use crate::quirk::Quirk;
 use crate::switch::Delay;
 
-/// A filter's output is known at these steps, s.
+/// A filter's output is known at these steps at most, s, and where it bends the most at these, in its time constants.
 const FINE: f64 = 1e-4;
+const FINEST: f64 = 1.0 / 128.0;
 
 /// What is refreshed more often is not held, s: it would take longer to say than to run.
 const SHORTEST_HOLD: f64 = 1e-6;
@@ -30,6 +31,25 @@ impl Stream {
         if !same {
             self.points.push((at, value));
         }
+    }
+
+    /// A level that a counter tells parts of, as what stands in the counter: whole, from the instant on at which each is reached, and at every
+    /// point that it had.
+    pub fn counted(self) -> Stream {
+        let mut out = Stream { is_edge: true, points: Vec::new() };
+        for (k, &(at, value)) in self.points.iter().enumerate() {
+            if let Some((then, before)) = k.checked_sub(1).map(|k| self.points[k]) {
+                let (from, to) = (before.floor(), value.floor());
+                let reached = |edge: f64| then + (at - then) * (edge - before) / (value - before);
+                let counts = (to - from).abs() as i64;
+                // Upwards a count begins at its own edge, downwards at that of the one before it.
+                let step = |k: i64| if to > from { (from + k as f64, 0.0) } else { (from - k as f64, 1.0) };
+                let steps = (1..=counts).map(|k| (step(k), at));
+                out.points.extend(steps.map(|((count, above), at)| (reached(count + above).clamp(then, at), count)));
+            }
+            out.points.push((at, value.floor()));
+        }
+        out
     }
 
     /// Its points.
@@ -210,25 +230,38 @@ impl Stream {
         out
     }
 
+    /// time·y' + y = x, x held between an edge's points and on the line between a level's: y as it is at each of its points.
     fn filtered(self, time: f64, end: f64) -> Stream {
-        let keep = (-FINE / time).exp();
+        const SETTLED: f64 = 1e-12;
         let mut out = Stream::new(false);
         let mut y = self.at(0.0);
-        let mut after = 0;
-        let steps = (end / FINE) as usize;
-        out.points.reserve(steps + 1);
-        for k in 0..=steps {
-            let at = k as f64 * FINE;
-            out.points.push((at, y));
-            // Held commands jump; in the middle of the step the new value stands.
-            let middle = at + 0.5 * FINE;
-            while self.points.get(after).is_some_and(|(time, _)| *time <= middle) {
-                after += 1;
+        for (k, &(from, held)) in self.points.iter().enumerate().filter(|(_, (from, _))| *from <= end) {
+            let next = self.points.get(k + 1).filter(|_| !self.is_edge);
+            let until = self.points.get(k + 1).map_or(end, |(at, _)| at.min(end));
+            let slope = next.map_or(0.0, |(at, to)| if *at > from { (to - held) / (at - from) } else { 0.0 });
+            // From how far it is off where it settles, which moves on with the line.
+            let behind = slope * time;
+            let apart = y - held + behind;
+            let exit = |after: f64| held + slope * after - behind + apart * (-after / time).exp();
+            let mut after = 0.0;
+            while from + after < until && (after == 0.0 || (apart * (-after / time).exp()).abs() > SETTLED) {
+                out.points.push((from + after, exit(after)));
+                after += (FINEST * time * (0.5 * after / time).exp()).clamp(1e-12, FINE);
             }
-            let there = self.before(after, middle);
-            y = there + (y - there) * keep;
+            y = exit(until - from);
+            out.points.push((until, y));
         }
         out
+    }
+
+    /// A filtered command as a device is told it: step by step, each as high as the filter's exit is in the middle of it.
+    pub fn in_steps(self) -> Stream {
+        if self.is_edge {
+            return self;
+        }
+        let next = |k: usize| self.points.get(k + 1).unwrap_or(&self.points[k]).1;
+        let points = self.points.iter().enumerate().map(|(k, &(at, value))| (at, 0.5 * (value + next(k))));
+        Stream { is_edge: true, points: points.collect() }
     }
 
     fn jittered(mut self, mut late: impl FnMut() -> f64) -> Stream {
@@ -300,6 +333,53 @@ mod tests {
         let mut dice = Dice::new(1, 1);
         let out = code.through(&quirk("D", "input-filter", &[("time_constant", 0.1)]), Kind::Code, &mut dice, 4.0);
         assert_eq!(out.points, [(0.0, 0.0), (1.1, 2.0), (2.1, 0.0)]);
+    }
+
+    /// Up to 2.5 and down to 0.5 within a second each: 1 and 2 are reached on the way up, 1 and 0 below 2 and 1 on the way down.
+    #[test]
+    fn a_counter_counts_when_it_is_reached() {
+        let mut level = Stream::new(false);
+        for (at, value) in [(0.0, 0.0), (1.0, 2.5), (2.0, 0.5), (3.0, -0.5)] {
+            level.push(at, value);
+        }
+        let counted = level.counted();
+        let expected = [
+            (0.0, 0.0),
+            (0.4, 1.0),
+            (0.8, 2.0),
+            (1.0, 2.0),
+            (1.25, 1.0),
+            (1.75, 0.0),
+            (2.0, 0.0),
+            (2.5, -1.0),
+            (3.0, -1.0),
+        ];
+        let is_so = |(one, other): (&(f64, f64), &(f64, f64))| (one.0 - other.0).abs() < 1e-12 && one.1 == other.1;
+        assert!(
+            counted.points.len() == expected.len() && counted.points.iter().zip(&expected).all(is_so),
+            "{:?}",
+            counted.points
+        );
+        let late = counted.through(&quirk("D", "dead-time", &[("time", 0.1)]), Kind::Count, &mut Dice::new(1, 1), 4.0);
+        assert_eq!([0.45, 0.55, 1.8, 1.9].map(|at| late.at(at)), [0.0, 1.0, 1.0, 0.0]);
+    }
+
+    /// However short its time is, and whenever the step comes; what it lets through on average does not depend on its steps.
+    #[test]
+    fn a_filter_begins_when_its_step_comes() {
+        for time in [1e-5, 1e-3, 0.1] {
+            let mut step = Stream::new(true);
+            step.push(0.0, 0.0);
+            step.push(0.500_037, 1.0);
+            let mut dice = Dice::new(1, 1);
+            let out =
+                step.through(&quirk("D", "input-filter", &[("time_constant", time)]), Kind::Level, &mut dice, 2.0);
+            let there = out.at(0.500_037 + time);
+            assert!((there - (1.0 - (-1.0_f64).exp())).abs() < 2e-4, "{time}: {there}");
+            let steps = out.in_steps();
+            let sum: f64 = steps.points.windows(2).map(|pair| pair[0].1 * (pair[1].0 - pair[0].0)).sum();
+            assert!((sum - (2.0 - 0.500_037 - time)).abs() < 1e-6 + 1e-3 * time, "{time}: {sum}");
+        }
     }
 
     #[test]

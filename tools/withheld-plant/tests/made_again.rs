@@ -1,4 +1,4 @@
-//! An exam whose making was interrupted is made to its end, and is the one that it would have been.
+//! Cases that are made again are the same: an exam's whose making was interrupted, and those that are asked for by their numbers.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -58,7 +58,31 @@ fn what_was_interrupted_goes_on_and_is_the_same() {
     assert!(said_of(cases(&cut, "6", &["--resume"])).contains("was begun with other arguments"));
     assert!(run(&cut, &["--resume"]).status.success());
     assert!(files(&whole) == files(&cut), "another exam came of it");
+    again_by_their_numbers(place.path(), &files(&whole));
     assert!(cut.join("answers.sealed").exists() && !place.path().join("cut.part").exists());
     assert!(said(&["--resume"]).contains("was not begun, or is whole"));
     assert!(said(&[]).contains("exists: expected a folder that is not there yet"));
+}
+
+/// Two of the cases of `whole`, in the open.
+fn again_by_their_numbers(place: &Path, whole: &BTreeMap<String, Vec<u8>>) {
+    let [again, answers] = ["again", "again.json"].map(|name| place.join(name));
+    let practice = |numbers: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_withheld-plant"));
+        command.args(["--seed", SEED, "--cases", "6", "--no-classes", "--only", numbers]);
+        command.arg("--out").arg(&again).arg("--answers").arg(&answers);
+        command
+    };
+    for (number, numbers) in [("7", "2,7"), ("0", "0")] {
+        let said = said_of(practice(numbers));
+        assert!(said.contains(&format!("--only {number}: expected a number from 1 to 6")), "{said}");
+    }
+    assert!(!again.exists() && !answers.exists());
+    assert!(practice("5,2").status().expect("it starts").success());
+    let asked = |file: &str| ["case-002", "case-005"].iter().any(|case| file.starts_with(case));
+    let expected = whole.iter().filter(|(file, _)| asked(file)).map(|(file, held)| (file.clone(), held.clone()));
+    assert!(files(&again) == expected.collect(), "other cases came of it");
+    let said = std::fs::read_to_string(&answers).expect("a file");
+    let told: Vec<&str> = said.lines().filter(|line| line.contains("\"case\"")).collect();
+    assert!(told.len() == 2 && told[0].contains("case-002") && told[1].contains("case-005"), "{told:?}");
 }
