@@ -7,7 +7,10 @@ use crate::switch::Delay;
 
 /// A filter's output is known at these steps at most, s, and where it bends the most at these, in its time constants.
 const FINE: f64 = 1e-4;
-const FINEST: f64 = 1.0 / 128.0;
+const FINEST: f64 = 1.0 / 64.0;
+
+/// Of more counts between two points not each has an instant of its own.
+const MOST_COUNTS: f64 = 16.0;
 
 /// What is refreshed more often is not held, s: it would take longer to say than to run.
 const SHORTEST_HOLD: f64 = 1e-6;
@@ -40,12 +43,18 @@ impl Stream {
         for (k, &(at, value)) in self.points.iter().enumerate() {
             if let Some((then, before)) = k.checked_sub(1).map(|k| self.points[k]) {
                 let (from, to) = (before.floor(), value.floor());
-                let reached = |edge: f64| then + (at - then) * (edge - before) / (value - before);
-                let counts = (to - from).abs() as i64;
-                // Upwards a count begins at its own edge, downwards at that of the one before it.
-                let step = |k: i64| if to > from { (from + k as f64, 0.0) } else { (from - k as f64, 1.0) };
-                let steps = (1..=counts).map(|k| (step(k), at));
-                out.points.extend(steps.map(|((count, above), at)| (reached(count + above).clamp(then, at), count)));
+                let counts = (to - from).abs();
+                let steps = 1..=counts.min(MOST_COUNTS) as i64;
+                if counts <= MOST_COUNTS {
+                    let reached = |edge: f64| then + (at - then) * (edge - before) / (value - before);
+                    // Upwards a count begins at its own edge, downwards at that of the one before it.
+                    let step = |k: i64| if to > from { (from + k as f64, 0.0) } else { (from - k as f64, 1.0) };
+                    let each = steps.map(step);
+                    out.points.extend(each.map(|(count, above)| (reached(count + above).clamp(then, at), count)));
+                } else {
+                    let there = |share: f64| (then + (at - then) * share, (before + (value - before) * share).floor());
+                    out.points.extend(steps.map(|k| there(k as f64 / MOST_COUNTS)));
+                }
             }
             out.points.push((at, value.floor()));
         }
@@ -246,7 +255,8 @@ impl Stream {
             let mut after = 0.0;
             while from + after < until && (after == 0.0 || (apart * (-after / time).exp()).abs() > SETTLED) {
                 out.points.push((from + after, exit(after)));
-                after += (FINEST * time * (0.5 * after / time).exp()).clamp(1e-12, FINE);
+                let finest = if self.is_edge { FINEST * time * (after / time).exp() } else { FINE };
+                after += finest.clamp(1e-12, FINE);
             }
             y = exit(until - from);
             out.points.push((until, y));
