@@ -6,7 +6,7 @@ use crate::gap::cause::{Alternative, Bounds, Candidate};
 use crate::gap::report::{Cause, FittedNominal, FittedParameter, Member, Remainder, Report, Rival, Verdict};
 use crate::gap::{Overrides, Study, Subject};
 use crate::plant::Plant;
-use crate::prototype::kind::PortDescriptor;
+use crate::prototype::kind::{PortDescriptor, PortType};
 use crate::prototype::quantity::si_unit;
 use crate::value::Quantity;
 
@@ -266,10 +266,11 @@ impl Site<'_> {
                 let unit = port
                     .and_then(|port| of(self.subject.kind.ports[port].quantities))
                     .unwrap_or_else(|| "1".to_owned());
-                match (candidate.effect.id, unit.as_str()) {
-                    ("drift", _) => format!("{unit}/s"),
+                let is_flag = port.is_some_and(|port| self.subject.kind.ports[port].ty == PortType::Boolean);
+                match candidate.effect.id {
+                    "drift" => format!("{unit}/s"),
                     // A switch looks along a way.
-                    ("hysteresis" | "blind-range", "1") => "m".to_owned(),
+                    "hysteresis" | "blind-range" if is_flag => "m".to_owned(),
                     _ => unit,
                 }
             }
@@ -289,9 +290,9 @@ mod tests {
 
     /// An axis of a robot that turns and a motor are limited in radians, the robot's other axes and a servo axis along a line in metres.
     #[test]
-    fn what_turns_is_told_in_radians() {
+    fn parameters_are_told_in_the_units_of_what_they_limit_or_hold() {
         let (plant, study) = (rig(), study(SLOW_PUSHER));
-        let unit = |device: &str, component: Option<&str>, effect: &str| {
+        let told = |device: &str, component: Option<&str>, effect: &str, name: &str| {
             let effect = EFFECTS.iter().find(|known| known.id == effect).expect("an effect");
             let candidate = Candidate {
                 effect,
@@ -303,14 +304,18 @@ mod tests {
                 starts: Vec::new(),
                 shown: Vec::new(),
             };
-            Site { plant: &plant, subject: study.subject(device).expect(device) }.unit(&candidate, "limit")
+            Site { plant: &plant, subject: study.subject(device).expect(device) }.unit(&candidate, name)
         };
+        let unit = |device: &str, component: Option<&str>, effect: &str| told(device, component, effect, "limit");
         assert_eq!(unit("Robot", Some("R"), "acceleration-limit"), "rad/s2");
         assert_eq!(unit("Robot", Some("X"), "acceleration-limit"), "m/s2");
         assert_eq!(unit("Robot", Some("R"), "jerk-limit"), "rad/s3");
         assert_eq!(unit("Motor", None, "velocity-limit"), "rad/s");
         assert_eq!(unit("Axis", None, "velocity-limit"), "m/s");
         assert_eq!(unit("Belt", None, "velocity-limit"), "m/s");
+        // A counter sticks by counts, a switch along a way.
+        assert_eq!(told("Motor", Some("encoder"), "hysteresis", "width"), "1");
+        assert_eq!(told("Pusher", Some("limitRetracted"), "hysteresis", "width"), "m");
     }
 
     fn cause(weight: f64) -> Cause {
