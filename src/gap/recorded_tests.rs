@@ -43,6 +43,10 @@ pub const BLIND_BARRIER: &str = "tests/data/belt-whose-barrier-is-blind.cps.json
 pub const LAGGING_ROBOT: &str = "tests/data/robot-whose-axis-lags-a-little.cps.jsonl.zst";
 /// A belt whose parts slip on it beyond 0.2 m/s², beside a motor.
 pub const SLIPPING_PARTS: &str = "tests/data/belt-whose-parts-slip.cps.jsonl.zst";
+/// A belt that starts 111 ms late and whose speed is reported 1.195 times too high, beside a motor.
+pub const STARTS_LATE: &str = "tests/data/belt-that-starts-late.cps.jsonl.zst";
+/// A motor that is told all 99 ms late and speeds up by 26.6 rad/s² instead of 20, beside a gripper.
+pub const TOLD_LATE: &str = "tests/data/motor-that-is-told-late.cps.jsonl.zst";
 
 /// What a recording in a folder of `tests/data` says of the plant beside it.
 pub fn study_of_folder(folder: &str) -> Study {

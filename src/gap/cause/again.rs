@@ -10,6 +10,7 @@ use super::bench::{Bench, Trial};
 use super::ladder::{Ladder, anew, settle};
 use super::remainder::{Left, left_by};
 use super::starts::UNLIMITED;
+use crate::gap::fit::Effort;
 
 /// Parts and multiples of what was found.
 const MULTIPLES: [f64; 16] = [0.5, 0.65, 0.75, 0.8, 0.85, 0.9, 0.95, 0.98, 1.0, 1.02, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0];
@@ -57,6 +58,57 @@ pub fn seek_again(bench: &Bench<'_>, ladder: &mut Ladder) {
     }
     if let Some((trial, subject)) =
         bench.tolerant(&nearest).and_then(|there| settle(bench, &bench.with(&there), &nearest, true))
+    {
+        (ladder.best, ladder.subject) = (trial, subject);
+    }
+}
+
+/// How many singles are tried in the place of the first of two effects, and how many of them are fitted to the end.
+const IN_ITS_PLACE: usize = 8;
+const FITTED_IN_ITS_PLACE: usize = 2;
+/// How many steps downhill the others go.
+const FEW: u32 = 6;
+
+/// Puts another single effect in the place of the first of two, where the two leave much and with that one they leave less: what explained the most alone may
+/// have stood for both, as a filter stands for a dead time of a drive that starts more slowly than it should.
+pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
+    let [first, second] = ladder.best.set.as_slice() else { return };
+    if bench.is_rugged() || left_by(bench, &ladder.best, &ladder.bare.at) != Left::Much {
+        return;
+    }
+    let best = &ladder.best;
+    let of_second = &best.at[first.free.len()..best.parameters()];
+    let others = ladder
+        .singles
+        .iter()
+        .filter(|single| single.set.last().is_some_and(|other| !other.is_same(first) && !other.is_same(second)));
+    let fit = |trial: &Trial, effort| bench.fit(&trial.set, std::slice::from_ref(&trial.at), effort);
+    let others: Vec<&Trial> = others.take(IN_ITS_PLACE).collect();
+    let begun = others.into_par_iter().with_max_len(1).filter_map(|single| {
+        let candidate = single.set.last()?;
+        let set = vec![candidate.clone(), second.clone()];
+        let carried = bench.carried(&set, &best.overrides);
+        // Where each explained the most without the other may be a false minimum of the two.
+        let alone = single.at[..single.parameters()].to_vec();
+        let is_grid = candidate.free.len() == 1 && second.free.len() == 1;
+        let seconds = second.starts.iter().filter(|_| is_grid);
+        let seconds: Vec<&[f64]> = seconds.map(Vec::as_slice).chain([of_second]).collect();
+        let starts = candidate.starts.iter().chain([&alone]);
+        let starts = starts.flat_map(|own| seconds.iter().map(|second| [own, *second, &carried].concat()));
+        let begun = starts.filter_map(|at| bench.trial(&set, at)).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        fit(&begun, Effort { starts: 1, budget: FEW * (begun.at.len() as u32 + 1) })
+    });
+    let mut begun: Vec<Trial> = begun.collect();
+    begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    begun.truncate(FITTED_IN_ITS_PLACE);
+    let fitted = begun.into_par_iter().with_max_len(1).filter_map(|trial| fit(&trial, anew(trial.at.len())));
+    let Some(other) = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return };
+    let Some(before) = bench.trial(&best.set, best.at.clone()) else { return };
+    if other.cost - ladder.floor.0 > WORTH * (before.cost - ladder.floor.0) {
+        return;
+    }
+    if let Some((trial, subject)) =
+        bench.tolerant(&other).and_then(|there| settle(bench, &bench.with(&there), &other, false))
     {
         (ladder.best, ladder.subject) = (trial, subject);
     }

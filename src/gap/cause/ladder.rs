@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::again::seek_again;
+use super::again::{exchange_first, seek_again};
 use super::bare::about;
 use super::bench::{Bench, Trial};
 use super::candidate::Candidate;
@@ -143,6 +143,7 @@ pub fn climb(
             end = step(bench, &mut ladder, is_asked, tell);
             if end == Rung::Taken {
                 seek_again(bench, &mut ladder);
+                exchange_first(bench, &mut ladder);
             }
         }
         let is_dropped = drop_idle(bench, &mut ladder);
@@ -150,7 +151,9 @@ pub fn climb(
         if ladder.best.set.is_empty() && ladder.beyond_rounding > 0.0 {
             break;
         }
-        if !(is_dropped || end == Rung::Unsure) || !step_by_two(bench, &mut ladder, is_asked, tell) {
+        let is_unknown = ladder.best.set.is_empty() && ladder.too_few_blocks.is_none();
+        let is_open = is_dropped || is_unknown || end == Rung::Unsure;
+        if !is_open || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }
     }

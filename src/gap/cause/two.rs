@@ -25,6 +25,8 @@ use crate::gap::statistics::least_gain;
 const LEAST_LEFT: f64 = 0.1;
 /// How many candidates are stepped on.
 const STONES: usize = 4;
+/// How many are where nothing was found: those that explained the most alone, though that was not worth having.
+const FIRST_STONES: usize = 2;
 /// How many go a few steps downhill for that: those that promise to leave the least.
 const LOOKED_AT: usize = 32;
 /// How many of them are fitted.
@@ -40,7 +42,9 @@ pub fn step_by_two(
     tell: &Tell<'_>,
 ) -> bool {
     let below = ladder.best.clone();
-    if below.set.is_empty() || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
+    let is_first = below.set.is_empty();
+    // Two at once explain more by chance than what is not evident may bear.
+    if is_first && ladder.beneath > 0.0 || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
         return false;
     }
     let subject = ladder.subject.clone();
@@ -52,22 +56,16 @@ pub fn step_by_two(
     }
     let beside =
         |stone: &Trial| rung(&weighed, stone, Sought::in_parts(standing.excess(stone.cost)), is_asked, &|_| true, tell);
-    let Some(library) = library_beside(&weighed, &below, is_asked) else { return false };
-    let tried = library.len();
-    let Some(about) = About::new(&weighed, &below) else { return false };
-    let promised = library.into_par_iter().with_max_len(1).map(|candidate| (about.leaves(&candidate), candidate));
-    let mut promised: Vec<(f64, Candidate)> = promised.collect();
-    promised.sort_by(|a, b| a.0.total_cmp(&b.0));
-    promised.truncate(LOOKED_AT);
-    let alone = promised.into_par_iter().with_max_len(1);
-    let mut begun: Vec<Begun> = alone.filter_map(|(_, candidate)| giving_way(&weighed, &below, candidate)).collect();
-    begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    begun.truncate(FITTED);
-    let fit = |Begun { set, at, .. }: Begun| weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()));
-    let mut free: Vec<Trial> = begun.into_par_iter().with_max_len(1).filter_map(fit).collect();
-    free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let (free, tried) = match is_first {
+        true => (ladder.singles.clone(), 0),
+        false => match beside_what_was_found(&weighed, &below, is_asked) {
+            Some(free) => free,
+            None => return false,
+        },
+    };
     let mut pairs: Vec<Trial> = Vec::new();
-    for stone in stones(&free) {
+    let most = if is_first { FIRST_STONES } else { STONES };
+    for stone in stones(&free, most) {
         pairs.extend(beside(&stone));
         // What is left of a swing remembers itself as long as that: it would be nothing by a hundred times its noise.
         let leaves_nothing =
@@ -90,6 +88,29 @@ pub fn step_by_two(
         false => ladder.folds = before,
     }
     is_worth
+}
+
+/// What each candidate leaves beside the effects of `below` with all of those given free, the best first; and how many there are.
+fn beside_what_was_found(
+    weighed: &Bench<'_>,
+    below: &Trial,
+    is_asked: &(dyn Fn(&str) -> bool + Sync),
+) -> Option<(Vec<Trial>, usize)> {
+    let library = library_beside(weighed, below, is_asked)?;
+    let tried = library.len();
+    let about = About::new(weighed, below)?;
+    let promised = library.into_par_iter().with_max_len(1).map(|candidate| (about.leaves(&candidate), candidate));
+    let mut promised: Vec<(f64, Candidate)> = promised.collect();
+    promised.sort_by(|a, b| a.0.total_cmp(&b.0));
+    promised.truncate(LOOKED_AT);
+    let alone = promised.into_par_iter().with_max_len(1);
+    let mut begun: Vec<Begun> = alone.filter_map(|(_, candidate)| giving_way(weighed, below, candidate)).collect();
+    begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    begun.truncate(FITTED);
+    let fit = |Begun { set, at, .. }: Begun| weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()));
+    let mut free: Vec<Trial> = begun.into_par_iter().with_max_len(1).filter_map(fit).collect();
+    free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    Some((free, tried))
 }
 
 /// A set where a few steps downhill led.
@@ -189,14 +210,14 @@ fn deepest(bench: &Bench<'_>, trial: &Trial, known: usize) -> Trial {
     best
 }
 
-/// Those of the sorted trials that another effect is looked for beside: the first of each kind of effect.
-fn stones(trials: &[Trial]) -> Vec<Trial> {
+/// Those of the sorted trials that another effect is looked for beside: the first of each kind of effect, so many at most.
+fn stones(trials: &[Trial], most: usize) -> Vec<Trial> {
     let mut stones: Vec<Trial> = Vec::new();
     for trial in trials {
         let Some(candidate) = trial.set.last() else { continue };
         let is_there = |stone: &Trial| stone.set.last().is_some_and(|other| other.effect.id == candidate.effect.id);
         let is_one = !candidate.is_parameter_error() && !candidate.free.is_empty();
-        if is_one && stones.len() < STONES && !stones.iter().any(is_there) {
+        if is_one && stones.len() < most && !stones.iter().any(is_there) {
             stones.push(trial.clone());
         }
     }

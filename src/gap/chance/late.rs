@@ -27,6 +27,8 @@ const HALVINGS: u32 = 9;
 const TELLS: f64 = 10.0;
 /// Within so much, in deviance, delays are one.
 const SAME: f64 = 0.5;
+/// The same for how far a delay may be off: the 95 % of a likelihood ratio. Edges are seen from one report to the next, and cost a little more towards both.
+const MAY_BE: f64 = 3.84;
 /// How well a delay is known at best, s.
 const SURE_S: f64 = 1e-4;
 /// How many commands must tell their delays.
@@ -194,6 +196,34 @@ impl<'a> Late<'a> {
         jitter(&telling)
     }
 
+    /// Leaves to a switch by how much the least delay of the commands that raise a port, or lower it, is longer than that of others: what scatters begins at
+    /// none. `None` where less than two such classes have enough commands to say what their least delay is.
+    pub fn leave_to_a_switch(&mut self) -> Option<()> {
+        let class = |told: &Told| (told.port, told.rise > 0.0);
+        let mut classes: Vec<((usize, bool), Vec<f64>)> = Vec::new();
+        for ((told, delay), is_apart) in self.told.iter().zip(&self.delays).zip(&self.apart) {
+            if !delay.tells || !is_apart {
+                continue;
+            }
+            match classes.iter_mut().find(|(of, _)| *of == class(told)) {
+                Some((_, delays)) => delays.push(delay.by),
+                None => classes.push((class(told), vec![delay.by])),
+            }
+        }
+        classes.retain(|(_, delays)| delays.len() >= IN_A_CLASS);
+        if classes.len() < 2 {
+            return None;
+        }
+        let least = |delays: &[f64]| delays.iter().copied().fold(f64::INFINITY, f64::min);
+        let of_all = classes.iter().map(|(_, delays)| least(delays)).fold(f64::INFINITY, f64::min);
+        for (told, delay) in self.told.iter().zip(&mut self.delays) {
+            if let Some((_, delays)) = classes.iter().find(|(of, _)| *of == class(told)) {
+                delay.by = (delay.by - (least(delays) - of_all)).max(0.0);
+            }
+        }
+        Some(())
+    }
+
     /// Gives each command of a port the best of all delays that are tried.
     fn try_all(&mut self, subject: &Subject, known: Known<'_>, port: usize) -> Option<()> {
         let cost = |by: &f64| self.costs(subject, known, port, |_| *by);
@@ -317,10 +347,11 @@ fn best(along: &[f64]) -> (Delay, f64) {
     let tried = tried();
     let least = along.iter().copied().fold(f64::INFINITY, f64::min);
     let best = along.iter().position(|cost| *cost <= least).unwrap_or(0);
-    let is_same = |k: &usize| along[*k] <= least + SAME;
-    let last = (best..tried.len()).take_while(is_same).last().unwrap_or(best);
+    let last_within = |off: f64| (best..tried.len()).take_while(|k| along[*k] <= least + off).last().unwrap_or(best);
+    let first_within = |off: f64| (0..=best).rev().take_while(|k| along[*k] <= least + off).last().unwrap_or(best);
     let most = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let (by, width) = (0.5 * (tried[best] + tried[last]), tried[last] - tried[best]);
+    let by = 0.5 * (tried[best] + tried[last_within(SAME)]);
+    let width = tried[last_within(MAY_BE)] - tried[first_within(MAY_BE)];
     (Delay { by, width, tells: most - least > TELLS }, least)
 }
 
@@ -525,6 +556,32 @@ mod tests {
             (rise(least / value) - 3.84).abs() < 0.05 && (rise(most / value) - 3.84).abs() < 0.05,
             "{least} {most}"
         );
+    }
+
+    /// What scatters by 10 ms, and is 50 ms later each time it is switched off.
+    #[test]
+    fn delays_that_scatter_beside_a_switch_are_told_from_it() {
+        let switched = delayed(|k, told| drawn(k) + if told.rise > 0.0 { 0.0 } else { 0.05 });
+        let (told, delays): (Vec<Told>, Vec<Delay>) = switched.into_iter().unzip();
+        let mut late = Late { apart: vec![true; told.len()], told, delays, is_stopped: &|| false };
+        assert!(late.sigma().is_none());
+        late.leave_to_a_switch().expect("enough of both");
+        let Bounds { value, .. } = late.sigma().expect("jitter");
+        assert!((value / 0.01 - 1.0).abs() < 0.1, "{value}");
+        let mut few = late.clone();
+        few.apart.iter_mut().skip(8).for_each(|apart| *apart = false);
+        assert!(few.leave_to_a_switch().is_none());
+    }
+
+    /// Edges are seen within 20 ms, and cost a little more towards both ends of that.
+    #[test]
+    fn a_delay_is_known_to_within_what_costs_no_more_than_chance() {
+        let cost = |by: f64| 20.0 * ((by - 0.05).abs() - 0.007).max(0.0) / 0.005;
+        let (delay, least) = best(&tried().into_iter().map(cost).collect::<Vec<_>>());
+        assert!((delay.by - 0.05).abs() < 3e-3 && delay.tells && least == 0.0, "{delay:?}");
+        let soft = |by: f64| (1e3 * (by - 0.05).abs() / 6.0).powi(2);
+        let (delay, _) = best(&tried().into_iter().map(soft).collect::<Vec<_>>());
+        assert!((delay.by - 0.05).abs() < 1e-9 && (delay.width - 0.02).abs() < 1e-9, "{delay:?}");
     }
 
     /// A flag that is looked at every 20 ms.

@@ -421,7 +421,13 @@ fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> b
     if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
         return None;
     }
-    jittering(subject, (other, bare), late.sigma()?)
+    if let Some(sigma) = late.sigma() {
+        return jittering(subject, (other, bare), sigma);
+    }
+    // What a switch adds to each is a gap of its own, and looked for as such.
+    late.leave_to_a_switch()?;
+    let sigma = late.sigma()?;
+    jittering(subject, put_off(subject, &bare, &late)?, sigma)
 }
 
 /// The device with its commands when they came, its nominal parameters found anew.

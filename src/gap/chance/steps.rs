@@ -27,8 +27,8 @@ use crate::gap::subject::Subject;
 const COARSER: f64 = 2.0;
 const ALIASED: f64 = 3.0;
 /// Rounding to a step leaves it over √12, as its differences are spread evenly. Between which multiples of what that makes of them it is
-/// looked for: noise and parameters that are fitted to it add to it or take away.
-const ABOUT: [f64; 2] = [0.5, 1.6];
+/// looked for: noise, parameters that are fitted to it, and what else is wrong with the device add to it or take away.
+const ABOUT: [f64; 2] = [0.2, 1.6];
 /// Noise behind the sensor spreads readings about its steps, and the mean of their cosines is then exp(−2π²σ²/s²): which share of that
 /// it must be at least, the noise being known from rests. What sticks at one value while it should move gathers, but not so nearly.
 const AS_NEAR: f64 = 0.5;
@@ -420,6 +420,15 @@ mod tests {
             assert!(least < 7.3e-4 && 7.3e-4 < most && most - least < 1e-6, "{steps:?}");
             assert!((steps.own - 1e-4).abs() < 1e-7, "{steps:?}");
         }
+    }
+
+    /// Steps of 7.3 lattices of a drive that is off by a fifth more than they are.
+    #[test]
+    fn steps_are_found_beside_what_else_is_off() {
+        let off = |x: f64, k: usize| x + 1.2e-3 * (0.05 * k as f64).sin();
+        let pairs = sweep(0.8, |x, k| rounded(rounded(off(x, k), 7.3e-4), 1e-4));
+        let steps = found(&pairs, 0.0).expect("steps");
+        assert!((steps.step - 7.3e-4).abs() < 1e-6, "{steps:?}");
     }
 
     fn foreseen(pairs: &[(f64, f64)], noise: f64) -> Option<Steps> {

@@ -315,7 +315,7 @@ mod tests {
     use crate::gap::fit::Range;
     use crate::gap::recorded_tests::{
         LAGGING_ROBOT, LATE_GRIPPER, LATE_PUSHER, LEAKING_GRIPPER, OFF_LATE, PULLED_AXIS, RUBBING_AXIS, SLIPPING_PARTS,
-        STICKING_AXIS, study,
+        STARTS_LATE, STICKING_AXIS, TOLD_LATE, study,
     };
 
     fn candidate(id: &str) -> Candidate {
@@ -380,6 +380,28 @@ mod tests {
         assert!(
             matches!(named.as_slice(), [("viscous-friction", rubs), ("constant-force", pulls)]
                 if (rubs / 32.52 - 1.0).abs() < 0.02 && (pulls / 0.0993 - 1.0).abs() < 0.1),
+            "{named:?}"
+        );
+    }
+
+    /// A belt that starts late says nothing of its gain while that is not known, nor of what it is late by.
+    #[test]
+    fn two_effects_of_which_neither_is_worth_having_alone_are_found() {
+        let named = named(STARTS_LATE, "Belt", &["gain", "offset", "switch-on-delay"]);
+        assert!(
+            matches!(named.as_slice(), [("switch-on-delay", late), ("gain", gain)]
+                if (late - 0.111).abs() < 1e-3 && (gain - 1.195).abs() < 1e-3),
+            "{named:?}"
+        );
+    }
+
+    /// Alone a filter explains more than the dead time, which has false minima.
+    #[test]
+    fn what_stood_for_two_effects_gives_way_to_one_of_them() {
+        let named = named(TOLD_LATE, "Motor", &["dead-time", "input-filter", "parameter-error"]);
+        assert!(
+            matches!(named.as_slice(), [("dead-time", late), ("parameter-error", limit)]
+                if (late - 0.0992).abs() < 1e-3 && (limit - 26.6).abs() < 0.1),
             "{named:?}"
         );
     }
