@@ -66,7 +66,8 @@ pub fn seek_again(bench: &Bench<'_>, ladder: &mut Ladder) {
 /// How many singles are tried in the place of the first of two effects, and how many of them are fitted to the end.
 const IN_ITS_PLACE: usize = 8;
 const FITTED_IN_ITS_PLACE: usize = 2;
-/// How many steps downhill the others go.
+/// From how many starts of the second effect, and how many steps downhill each goes.
+const SECONDS: usize = 5;
 const FEW: u32 = 6;
 
 /// Puts another single effect in the place of the first of two, where the two leave much and with that one they leave less: what explained the most alone may
@@ -91,11 +92,13 @@ pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
         // Where each explained the most without the other may be a false minimum of the two.
         let alone = single.at[..single.parameters()].to_vec();
         let is_grid = candidate.free.len() == 1 && second.free.len() == 1;
-        let seconds = second.starts.iter().filter(|_| is_grid);
+        let each = second.starts.len().div_ceil(SECONDS).max(1);
+        let seconds = second.starts.iter().skip(each / 2).step_by(each).filter(|_| is_grid);
         let seconds: Vec<&[f64]> = seconds.map(Vec::as_slice).chain([of_second]).collect();
         let starts = candidate.starts.iter().chain([&alone]);
         let starts = starts.flat_map(|own| seconds.iter().map(|second| [own, *second, &carried].concat()));
-        let begun = starts.filter_map(|at| bench.trial(&set, at)).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        let begun = starts.filter_map(|at| if bench.is_stopped() { None } else { bench.trial(&set, at) });
+        let begun = begun.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
         fit(&begun, Effort { starts: 1, budget: FEW * (begun.at.len() as u32 + 1) })
     });
     let mut begun: Vec<Trial> = begun.collect();

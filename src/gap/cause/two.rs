@@ -1,4 +1,4 @@
-//! Two effects at once, where one that seemed to explain much turned out not to be worth having: it may have stood for two that are.
+//! Two effects at once, where one that seemed to explain much turned out not to be worth having, or where none is alone: it may have stood for two that are.
 //!
 //! A ladder that adds the best effect, then the best beside it, ends where only two together say more. A drive that eases into its
 //! target by a lag and accelerates no faster than it can is one: beside a dead time as long as both take, the lag gains
