@@ -151,8 +151,7 @@ pub fn climb(
         if ladder.best.set.is_empty() && ladder.beyond_rounding > 0.0 {
             break;
         }
-        let is_unknown = ladder.best.set.is_empty() && ladder.too_few_blocks.is_none();
-        let is_open = is_dropped || is_unknown || end == Rung::Unsure;
+        let is_open = is_dropped || end == Rung::Unsure || ladder.best.set.is_empty();
         if !is_open || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }

@@ -43,8 +43,9 @@ pub fn step_by_two(
 ) -> bool {
     let below = ladder.best.clone();
     let is_first = below.set.is_empty();
-    // Two at once explain more by chance than what is not evident may bear.
-    if is_first && ladder.beneath > 0.0 || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
+    // Two at once explain more by chance than what is not evident may bear, or what shows in too little motion for one.
+    let is_unsure = is_first && (ladder.beneath > 0.0 || ladder.too_few_blocks.is_some());
+    if is_unsure || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
         return false;
     }
     let subject = ladder.subject.clone();
