@@ -74,6 +74,10 @@ const FEW: u32 = 6;
 /// have stood for both, as a filter stands for a dead time of a drive that starts more slowly than it should.
 pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
     let [first, second] = ladder.best.set.as_slice() else { return };
+    // What is not evident says too little of two for that.
+    if ladder.beneath > 0.0 {
+        return;
+    }
     if bench.is_rugged() || left_by(bench, &ladder.best, &ladder.bare.at) != Left::Much {
         return;
     }

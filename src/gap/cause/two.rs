@@ -25,8 +25,8 @@ use crate::gap::statistics::least_gain;
 const LEAST_LEFT: f64 = 0.1;
 /// How many candidates are stepped on.
 const STONES: usize = 4;
-/// How many are where nothing was found: those that explained the most alone, though that was not worth having.
-const FIRST_STONES: usize = 2;
+/// How many are where nothing was found: what explained the most alone, though that was not worth having.
+const FIRST_STONES: usize = 1;
 /// How many go a few steps downhill for that: those that promise to leave the least.
 const LOOKED_AT: usize = 32;
 /// How many of them are fitted.
