@@ -52,12 +52,18 @@ pub fn seek_again(bench: &Bench<'_>, ladder: &mut Ladder) {
         .with_max_len(1)
         .filter_map(|trial| bench.fit(&trial.set, std::slice::from_ref(&trial.at), anew(trial.at.len())));
     let Some(nearest) = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return };
-    let Some(before) = bench.trial(set, at.clone()) else { return };
-    if nearest.cost - ladder.floor.0 > WORTH * (before.cost - ladder.floor.0) {
+    take_if_worth(bench, ladder, &nearest);
+}
+
+/// Takes `other` for the best set, refitted, if what it leaves is so much less.
+fn take_if_worth(bench: &Bench<'_>, ladder: &mut Ladder, other: &Trial) {
+    let Some(before) = bench.trial(&ladder.best.set, ladder.best.at.clone()) else { return };
+    if other.cost - ladder.floor.0 > WORTH * (before.cost - ladder.floor.0) {
         return;
     }
+    let is_first = other.set.len() == 1;
     if let Some((trial, subject)) =
-        bench.tolerant(&nearest).and_then(|there| settle(bench, &bench.with(&there), &nearest, true))
+        bench.tolerant(other).and_then(|there| settle(bench, &bench.with(&there), other, is_first))
     {
         (ladder.best, ladder.subject) = (trial, subject);
     }
@@ -75,10 +81,8 @@ const FEW: u32 = 6;
 pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
     let [first, second] = ladder.best.set.as_slice() else { return };
     // What is not evident says too little of two for that.
-    if ladder.beneath > 0.0 {
-        return;
-    }
-    if bench.is_rugged() || left_by(bench, &ladder.best, &ladder.bare.at) != Left::Much {
+    let is_apt = !bench.is_rugged() && ladder.beneath == 0.0;
+    if !is_apt || left_by(bench, &ladder.best, &ladder.bare.at) != Left::Much {
         return;
     }
     let best = &ladder.best;
@@ -87,6 +91,9 @@ pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
         .singles
         .iter()
         .filter(|single| single.set.last().is_some_and(|other| !other.is_same(first) && !other.is_same(second)));
+    let each = second.starts.len().div_ceil(SECONDS).max(1);
+    let seconds = second.starts.iter().skip(each / 2).step_by(each).map(Vec::as_slice);
+    let seconds: Vec<&[f64]> = seconds.chain([of_second]).collect();
     let fit = |trial: &Trial, effort| bench.fit(&trial.set, std::slice::from_ref(&trial.at), effort);
     let others: Vec<&Trial> = others.take(IN_ITS_PLACE).collect();
     let begun = others.into_par_iter().with_max_len(1).filter_map(|single| {
@@ -96,9 +103,7 @@ pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
         // Where each explained the most without the other may be a false minimum of the two.
         let alone = single.at[..single.parameters()].to_vec();
         let is_grid = candidate.free.len() == 1 && second.free.len() == 1;
-        let each = second.starts.len().div_ceil(SECONDS).max(1);
-        let seconds = second.starts.iter().skip(each / 2).step_by(each).filter(|_| is_grid);
-        let seconds: Vec<&[f64]> = seconds.map(Vec::as_slice).chain([of_second]).collect();
+        let seconds = if is_grid { seconds.as_slice() } else { &[of_second] };
         let starts = candidate.starts.iter().chain([&alone]);
         let starts = starts.flat_map(|own| seconds.iter().map(|second| [own, *second, &carried].concat()));
         let begun = starts.filter_map(|at| if bench.is_stopped() { None } else { bench.trial(&set, at) });
@@ -110,15 +115,7 @@ pub fn exchange_first(bench: &Bench<'_>, ladder: &mut Ladder) {
     begun.truncate(FITTED_IN_ITS_PLACE);
     let fitted = begun.into_par_iter().with_max_len(1).filter_map(|trial| fit(&trial, anew(trial.at.len())));
     let Some(other) = fitted.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { return };
-    let Some(before) = bench.trial(&best.set, best.at.clone()) else { return };
-    if other.cost - ladder.floor.0 > WORTH * (before.cost - ladder.floor.0) {
-        return;
-    }
-    if let Some((trial, subject)) =
-        bench.tolerant(&other).and_then(|there| settle(bench, &bench.with(&there), &other, false))
-    {
-        (ladder.best, ladder.subject) = (trial, subject);
-    }
+    take_if_worth(bench, ladder, &other);
 }
 
 #[cfg(test)]

@@ -147,10 +147,6 @@ pub fn climb(
             }
         }
         let is_dropped = drop_idle(bench, &mut ladder);
-        // Two at once explain more by chance than what shows by its rounding alone may bear.
-        if ladder.best.set.is_empty() && ladder.beyond_rounding > 0.0 {
-            break;
-        }
         let is_open = is_dropped || end == Rung::Unsure || ladder.best.set.is_empty();
         if !is_open || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;

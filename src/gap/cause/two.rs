@@ -57,16 +57,14 @@ pub fn step_by_two(
     }
     let beside =
         |stone: &Trial| rung(&weighed, stone, Sought::in_parts(standing.excess(stone.cost)), is_asked, &|_| true, tell);
-    let (free, tried) = match is_first {
-        true => (ladder.singles.clone(), 0),
-        false => match beside_what_was_found(&weighed, &below, is_asked) {
-            Some(free) => free,
-            None => return false,
-        },
+    let (stones, tried) = if is_first {
+        (stones(&ladder.singles, FIRST_STONES), 0)
+    } else {
+        let Some((free, tried)) = beside_what_was_found(&weighed, &below, is_asked) else { return false };
+        (stones(&free, STONES), tried)
     };
     let mut pairs: Vec<Trial> = Vec::new();
-    let most = if is_first { FIRST_STONES } else { STONES };
-    for stone in stones(&free, most) {
+    for stone in stones {
         pairs.extend(beside(&stone));
         // What is left of a swing remembers itself as long as that: it would be nothing by a hundred times its noise.
         let leaves_nothing =

@@ -27,7 +27,8 @@ const HALVINGS: u32 = 9;
 const TELLS: f64 = 10.0;
 /// Within so much, in deviance, delays are one.
 const SAME: f64 = 0.5;
-/// The same for how far a delay may be off: the 95 % of a likelihood ratio. Edges are seen from one report to the next, and cost a little more towards both.
+/// By so much more, in deviance, what is found may be as well but for a chance of 5 %: a delay (edges are seen from one report to the next, and cost a little
+/// more towards both), and the deviation of delays.
 const MAY_BE: f64 = 3.84;
 /// How well a delay is known at best, s.
 const SURE_S: f64 = 1e-4;
@@ -461,7 +462,6 @@ fn jitter(telling: &[(Told, Delay)]) -> Option<Bounds> {
 /// Source: the likelihood of observations that are known to within intervals, and its ratio (J. F. Lawless, Statistical Models and Methods for Lifetime
 /// Data, Wiley 2003, section 2.2).
 fn likeliest(within: &[[f64; 2]]) -> Bounds {
-    const RISE: f64 = 3.84;
     const UNLIKELY: f64 = 1e-12;
     let below = |at: f64, sigma: f64| 2.0 * normal(at / sigma) - 1.0;
     let deviance = |log: f64| -> f64 {
@@ -480,7 +480,7 @@ fn likeliest(within: &[[f64; 2]]) -> Bounds {
         let mut near = best;
         for _ in 0..60 {
             let middle = 0.5 * (near + far);
-            if deviance(middle) < least + RISE { near = middle } else { far = middle }
+            if deviance(middle) < least + MAY_BE { near = middle } else { far = middle }
         }
         near.exp()
     };

@@ -422,7 +422,7 @@ mod tests {
         }
     }
 
-    /// Steps of 7.3 lattices of a drive that is off by a fifth more than they are.
+    /// Steps of 7.3 lattices of a drive that is off by up to 12 of them.
     #[test]
     fn steps_are_found_beside_what_else_is_off() {
         let off = |x: f64, k: usize| x + 1.2e-3 * (0.05 * k as f64).sin();
