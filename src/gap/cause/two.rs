@@ -20,6 +20,7 @@ use super::tangent::{orthonormal, product, take_out};
 use super::unseen::Folds;
 use crate::gap::fit::{Fitted, Slopes, least_squares, sum_of_squares};
 use crate::gap::statistics::least_gain;
+use crate::gap::{FAR_BEYOND, THRESHOLD, evidence};
 
 /// Of the excess, what must be left.
 const LEAST_LEFT: f64 = 0.1;
@@ -43,9 +44,7 @@ pub fn step_by_two(
 ) -> bool {
     let below = ladder.best.clone();
     let is_first = below.set.is_empty();
-    // Two at once explain more by chance than what is not evident may bear, or what shows in too little motion for one.
-    let is_unsure = is_first && (ladder.beneath > 0.0 || ladder.too_few_blocks.is_some());
-    if is_unsure || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
+    if is_first && !bears_two(bench, ladder) || below.set.len() + 2 > MOST_EFFECTS || bench.is_stopped() {
         return false;
     }
     let subject = ladder.subject.clone();
@@ -87,6 +86,14 @@ pub fn step_by_two(
         false => ladder.folds = before,
     }
     is_worth
+}
+
+/// Whether a gap of which no effect explains enough may be asked for two at once. They explain more by chance than one: it has to be a gap though nothing
+/// explains it, and to show in enough motion for one.
+fn bears_two(bench: &Bench<'_>, ladder: &Ladder) -> bool {
+    let bare = bench.predict(&[], &ladder.bare.at);
+    let is_a_gap = bare.is_some_and(|bare| evidence(bench.subject, &bare) > FAR_BEYOND * THRESHOLD);
+    is_a_gap && ladder.too_few_blocks.is_none()
 }
 
 /// What each candidate leaves beside the effects of `below` with all of those given free, the best first; and how many there are.
@@ -221,4 +228,26 @@ fn stones(trials: &[Trial], most: usize) -> Vec<Trial> {
         }
     }
     stones
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::Subject;
+    use crate::gap::cause::axis_tests::{ending_at, report_as, rubbing_axis};
+
+    /// An axis that rubs has a gap, whatever explains it; one that reports what is predicted has none.
+    #[test]
+    fn only_what_is_a_gap_though_nothing_explains_it_bears_two_effects() {
+        let (mut subject, nominal, _) = rubbing_axis();
+        let bears = |subject: &Subject, too_few_blocks: Option<f64>| {
+            let stop = || false;
+            let bench = Bench::new(subject, Vec::new(), &stop);
+            let ladder = ending_at(&bench, &nominal, bench.trial(&[], Vec::new()).expect("a trial"));
+            bears_two(&bench, &Ladder { too_few_blocks, ..ladder })
+        };
+        assert!(bears(&subject, None) && !bears(&subject, Some(2.0)));
+        report_as(&mut subject, &nominal);
+        assert!(!bears(&subject, None));
+    }
 }
