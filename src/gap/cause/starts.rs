@@ -33,6 +33,8 @@ const SHORTEST_WINDOW_S: f64 = 1e-4;
 
 /// From which value on a limit is taken to limit nothing.
 pub const UNLIMITED: f64 = 1e8;
+/// The shortest time in which a drive whose jerk is limited reaches its acceleration, s: what takes it less shows in no report.
+const STEEPEST_S: f64 = 1e-5;
 /// How fast what hangs on a spring swings where the search for it begins, rad/s, and how fast it may.
 const SWINGS: &[f64] = &[7.0, 14.0, 28.0, 56.0, 112.0, 224.0, 448.0, 896.0, 1792.0];
 const STIFFEST: f64 = 3000.0;
@@ -244,7 +246,7 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         let mut longest = never.map_or(longest, |never| longest.max(2.0 * never).min(greatest));
         starts.extend(never);
         if candidate.effect.id == "stale-hold" && candidate.place == EffectPlace::ReportLink {
-            starts.extend(refresh::period(clues, longest));
+            starts.extend(refresh::periods(clues, longest));
             // A flag that is never told may be looked at only while it is off.
             if longest_stay(clues, true).is_some() {
                 longest = greatest;
@@ -269,15 +271,15 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
     }
     if parameter.nominal >= UNLIMITED {
         // Above what the device does it would do nothing.
-        let unit = if parameter.quantities.is_empty() { 1e4 * clues.scales.acceleration } else { unit };
+        let unit = if parameter.quantities.is_empty() { clues.scales.acceleration / STEEPEST_S } else { unit };
         let shares: &[f64] = match parameter.quantities.is_empty() {
-            true => &[0.1, 0.01, 1e-3, 3e-4],
+            true => &[0.3, 0.1, 0.01, 1e-3, 1e-4, 3e-5],
             false => &[0.999, 0.99, 0.9, 0.7, 0.4, 0.2, 0.1, 0.03, 0.01],
         };
         return (range(least, 1.02 * unit, 0.05 * unit), times(shares, unit));
     }
     match (candidate.effect.id, parameter.name) {
-        ("second-order-lag", "natural_frequency") => (range(least, 1e5, 10.0), vec![10.0, 50.0, 300.0, 2000.0]),
+        ("second-order-lag", "natural_frequency") => (range(least, 1e5, 10.0), vec![10.0, 50.0, 300.0, 2000.0, 2e4]),
         ("second-order-lag", "damping") => (range(0.05, 20.0, 0.2), vec![0.3, 1.0, 2.0]),
         ("stribeck-friction", "velocity") => {
             let most = clues.scales.speed;
@@ -449,7 +451,7 @@ mod tests {
     use super::*;
     use crate::gap::Overrides;
     use crate::gap::cause::library::candidates;
-    use crate::gap::recorded_tests::{BLIND_SWITCH, LAGGING_ROBOT, SLIPPING_PARTS, SLOW_PUSHER, study};
+    use crate::gap::recorded_tests::{BLIND_SWITCH, LAGGING_ROBOT, SLIPPING_PARTS, SLOW_PUSHER, TOLD_LATE, study};
 
     /// A switch that is told late enough never comes, and one that is told for long enough never goes; this one went.
     #[test]
@@ -501,6 +503,20 @@ mod tests {
         assert!(widths.iter().any(|width| (width / slowest - 2.04).abs() < 1e-9), "{widths:?}");
         assert!((greatest / fastest - 2.2).abs() < 1e-9 && widths.iter().all(|width| *width < greatest));
         assert!(starts(LAGGING_ROBOT, "Robot").0.is_empty());
+    }
+
+    /// A drive that takes 46 µs to reach its acceleration lags by half of that, which a counter shows: it is looked for from both sides.
+    #[test]
+    fn a_jerk_limit_may_be_steep() {
+        let study = study(TOLD_LATE);
+        let motor = study.subject("Motor").expect("it moves");
+        let nominal = motor.predict(&[], &Overrides::none()).expect("a prediction");
+        let score = motor.score(&nominal);
+        let found = candidates(motor, &nominal, &score, &|id| id == "jerk-limit").swap_remove(0);
+        let limit = 20.0 / 46e-6;
+        let starts = || found.starts.iter().map(|start| start[0]);
+        assert!(found.free[0].range.greatest > limit, "{:?}", found.free[0].range);
+        assert!(starts().any(|start| start > limit) && starts().any(|start| start < limit), "{:?}", found.starts);
     }
 
     /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.
