@@ -15,7 +15,7 @@ use super::parts::Origin;
 use super::prediction::Predicted;
 use super::recording::Recording;
 use super::statistics::{inflation, lag_one, least_gain, quantile};
-use super::study::{Study, StudyError, Told};
+use super::study::{Beforehand, Study, StudyError};
 use super::subject::Subject;
 use super::track::Track;
 use crate::plant::Plant;
@@ -55,7 +55,7 @@ pub(super) fn align(plant: &Plant, recording: &Recording) -> Result<(Recording, 
         .map(|clock| ClockOffset { name: clock.name.clone(), offset_s: 0.0, drift: 0.0, devices: 0 })
         .collect();
     for round in 0..ROUNDS {
-        let study = Study::of_one_clock(plant, std::slice::from_ref(&moved), &[], Told::AsItActs)?;
+        let study = Study::of_one_clock(plant, std::slice::from_ref(&moved), Beforehand::NOTHING)?;
         for (clock, found) in found.iter_mut().enumerate() {
             let evidence = Evidence::of(&study, &moved, clock);
             let Some((offset, drift)) = evidence.nearest(round) else { continue };

@@ -12,14 +12,10 @@ use super::cause::Bare;
 use super::edges::interval;
 use super::grid::median;
 use super::locate::{THRESHOLD, are_levels_off, evidence};
-use super::overrides::Overrides;
 use super::prediction::{Predicted, Prediction};
 use super::score::Score;
-use super::study::Study;
 use super::subject::{Subject, beam_of};
 use super::task::{LEAST_DEVICES, LEAST_SQUARE, NEARER, Task};
-use crate::effect::EffectError;
-use crate::plant::EffectSpec;
 
 /// How slow the filter of all inputs may be, s.
 pub const MOST_FILTER_S: f64 = 6e-3;
@@ -186,43 +182,6 @@ pub(super) fn find_beside_parameters(
         bare[at] = found;
     }
     Some(best.filter_s)
-}
-
-/// How slow the filter of all inputs is once it is known what each device has: `found` is what was found of each, with the nominal parameters beside it;
-/// `None` where it is as it was. What an effect makes late had been taken for a filter, or had hidden one.
-pub(super) fn find_beside_effects(study: &Study, found: &[(Vec<EffectSpec>, Overrides)]) -> Option<f64> {
-    let known_s = study.tasks.iter().map(|task| task.filter_s).fold(0.0, f64::max);
-    let with_effects = |(at, (effects, overrides)): (usize, &(Vec<EffectSpec>, Overrides))| {
-        let mut subject = study.subjects[at].clone();
-        subject.effects.extend(effects.iter().cloned());
-        let nominal = subject.predict(&[], &Overrides::none()).ok()?;
-        let bare = Bare { overrides: overrides.clone(), ..study.bare[at].clone() }.held(&subject);
-        Some((subject, nominal, bare))
-    };
-    let devices = found.iter().enumerate().filter(|(at, _)| !study.subjects[*at].is_bay());
-    let each = devices.map(with_effects).collect::<Option<Vec<_>>>()?;
-    let (mut subjects, rest): (Vec<Subject>, Vec<(Prediction, Bare)>) =
-        each.into_iter().map(|(subject, nominal, bare)| (subject, (nominal, bare))).unzip();
-    let (nominal, mut bare): (Vec<Prediction>, Vec<Bare>) = rest.into_iter().unzip();
-    let filter_s = find_beside_parameters(known_s, &mut subjects, &nominal, &mut bare)?;
-    ((filter_s - known_s).abs() > FILTER_STEP_S).then_some(filter_s)
-}
-
-/// The study of a machine whose inputs are found to pass such a filter, each device as its tolerances let it stand then.
-pub(super) fn with_filter(study: &Study, filter_s: f64) -> Result<Study, EffectError> {
-    let mut study = study.clone();
-    study.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
-    let each = study.subjects.par_iter_mut().zip(&mut study.nominal).zip(&mut study.bare).with_max_len(1);
-    each.filter(|((subject, _), _)| !subject.is_bay()).try_for_each(|((subject, nominal), bare)| {
-        set(subject, filter_s);
-        *nominal = subject.predict(&[], &Overrides::none())?;
-        *bare = bare.held(subject).again(subject, nominal);
-        if !subject.has_levels() && evidence(subject, &bare.prediction) > THRESHOLD {
-            *bare = bare.widely(subject, nominal);
-        }
-        Ok::<_, EffectError>(())
-    })?;
-    Ok(study)
 }
 
 /// Whether so much gained, in deviance, makes a filter one: how long one is that is there is no further thing to be found, and one that leaves no gap

@@ -50,13 +50,19 @@ pub const TOLD_LATE: &str = "tests/data/motor-that-is-told-late.cps.jsonl.zst";
 
 /// What a recording in a folder of `tests/data` says of the plant beside it.
 pub fn study_of_folder(folder: &str) -> Study {
+    let (plant, recording) = of_folder(folder);
+    Study::new(&plant, &[recording]).expect("a study")
+}
+
+/// Such a plant, and its recording.
+pub fn of_folder(folder: &str) -> (Plant, Recording) {
     let (path, trace) = (format!("{folder}/plant.xml"), format!("{folder}/train.cps.jsonl.zst"));
     let text = std::fs::read_to_string(&path).expect("the plant's file");
     let plant =
         plant::load(&Layered(Memory([(path.clone(), text)].into()), Embedded), &path, KINDS).expect("the plant");
     let reader = Reader::new(&trace, BufReader::new(File::open(&trace).expect("the recording"))).expect("a trace");
     let recording = Recording::read(&plant, &trace, reader, &[]).expect("a recording");
-    Study::new(&plant, &[recording]).expect("a study")
+    (plant, recording)
 }
 
 /// The rig that was recorded.
@@ -71,10 +77,17 @@ pub fn study(path: &str) -> Study {
 
 /// The same of a trace by this name.
 pub fn study_of(name: &str, trace: impl BufRead) -> Study {
-    let plant = rig();
+    Study::new(&rig(), &[recording_of(name, trace)]).expect("a study")
+}
+
+/// A recording of the rig.
+pub fn recording(path: &str) -> Recording {
+    recording_of(path, BufReader::new(File::open(path).expect("the recording")))
+}
+
+fn recording_of(name: &str, trace: impl BufRead) -> Recording {
     let reader = Reader::new(name, trace).expect("a trace");
-    let recording = Recording::read(&plant, name, reader, &[]).expect("a recording");
-    Study::new(&plant, &[recording]).expect("a study")
+    Recording::read(&rig(), name, reader, &[]).expect("a recording")
 }
 
 /// The lines of a recording.

@@ -23,7 +23,7 @@ use super::surroundings::{self, Sizes};
 use super::task::{self, Task};
 use super::tick::{self, Vote};
 use crate::effect::EffectError;
-use crate::plant::Plant;
+use crate::plant::{EffectSpec, Plant};
 use crate::trace::Commands;
 
 /// Why there is nothing to study.
@@ -63,14 +63,53 @@ pub(super) enum Told {
     AsItActs,
 }
 
+/// What is known of recordings before they are looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beforehand<'a> {
+    pub known: Known<'a>,
+    pub told: Told,
+    /// What each of the plant's devices has besides what the model says, in their order; empty: nothing.
+    pub added: &'a [Vec<EffectSpec>],
+}
+
+impl Beforehand<'_> {
+    /// Nothing is known.
+    pub const NOTHING: Beforehand<'static> = Beforehand { known: Known::Nothing, told: Told::AsItActs, added: &[] };
+}
+
+/// What is known of the machine's task.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Known<'a> {
+    Nothing,
+    /// Tasks of the machine, each with the cycle of the recording that it was found in.
+    OfItsCycle(&'a [(f64, Task)]),
+    /// All of it, as another study of the same recordings has it.
+    As(&'a Study),
+    /// The same of recordings that are held out: how far their instants are off is not fitted to them.
+    AsHeldOut(&'a Study),
+}
+
 impl Study {
     /// Reads all that can be known without any candidate.
     ///
     /// # Errors
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
-        let of =
-            |told| Ok::<_, StudyError>(Study::aligned(plant, recordings, &[], told)?.within_tolerances(recordings));
+        Ok(Study::beside_effects(plant, recordings, &[])?.with_bays(None)?)
+    }
+
+    /// The same where devices have these effects, in the plant's order, but for what bays make.
+    pub(super) fn beside_effects(
+        plant: &Plant,
+        recordings: &[Recording],
+        added: &[Vec<EffectSpec>],
+    ) -> Result<Study, StudyError> {
+        let of = |told| {
+            let beforehand = Beforehand { told, added, ..Beforehand::NOTHING };
+            Ok::<_, StudyError>(
+                Study::aligned(plant, recordings, beforehand)?.within_tolerances(recordings, !added.is_empty()),
+            )
+        };
         let mut study = of(Told::AsItActs)?;
         // Where a device is wrong by so much that a motor's few counts are nothing beside it, ways may be found that are how it is wrong.
         if study.tasks.iter().any(|task| task.scatter_s > 0.0) && study.in_order() < study.subjects.len() {
@@ -79,7 +118,14 @@ impl Study {
                 study = stamped;
             }
         }
-        Ok(study.with_bays(None)?)
+        Ok(study)
+    }
+
+    /// The same of a machine whose task is as another study of the same recordings has it.
+    pub(super) fn under(plant: &Plant, recordings: &[Recording], found: &Study) -> Result<Study, StudyError> {
+        let beforehand = Beforehand { known: Known::As(found), ..Beforehand::NOTHING };
+        let study = Study::aligned(plant, recordings, beforehand)?;
+        Ok(study.with_parameters().widely().with_bays(None)?)
     }
 
     /// How many of its devices are in order.
@@ -88,29 +134,22 @@ impl Study {
         all.filter(|(subject, bare)| evidence(subject, &bare.prediction) <= THRESHOLD).count()
     }
 
-    /// The same with nominal parameters as they are declared. `known` are tasks of the machine, each with the cycle of the
-    /// recording that it was found in.
-    fn aligned(
-        plant: &Plant,
-        recordings: &[Recording],
-        known: &[(f64, Task)],
-        told: Told,
-    ) -> Result<Study, StudyError> {
+    /// The same with nominal parameters as they are declared.
+    fn aligned(plant: &Plant, recordings: &[Recording], beforehand: Beforehand<'_>) -> Result<Study, StudyError> {
         if recordings.iter().all(|recording| recording.clocks.is_empty()) {
-            return Study::of_one_clock(plant, recordings, known, told);
+            return Study::of_one_clock(plant, recordings, beforehand);
         }
         let aligned = recordings.iter().map(|recording| clocks::align(plant, recording));
         let aligned = aligned.collect::<Result<Vec<_>, _>>()?;
         let (recordings, offsets): (Vec<Recording>, Vec<_>) = aligned.into_iter().unzip();
-        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings, known, told)? })
+        Ok(Study { clocks: offsets, ..Study::of_one_clock(plant, &recordings, beforehand)? })
     }
 
     /// The same, of recordings whose stamps are taken as they are.
     pub(super) fn of_one_clock(
         plant: &Plant,
         recordings: &[Recording],
-        known: &[(f64, Task)],
-        told: Told,
+        beforehand: Beforehand<'_>,
     ) -> Result<Study, StudyError> {
         if recordings.is_empty() {
             return Err(StudyError::NoRecording);
@@ -119,6 +158,9 @@ impl Study {
         let ids = TaskId::all(plant);
         let mut subjects: Vec<Subject> =
             ids.into_par_iter().map(|id| Subject::new(plant, id, recordings, &grids)).collect();
+        for (subject, added) in subjects.iter_mut().zip(beforehand.added) {
+            subject.effects.extend(added.iter().cloned());
+        }
         subjects
             .par_iter_mut()
             .try_for_each(|subject| calibrate(subject).map(|nominal| subject.await_agreement(&nominal)))?;
@@ -139,7 +181,7 @@ impl Study {
                 }
                 _ => {
                     let tick = find_tick(&mut subjects, run, &grids[run].main)?;
-                    find_task(&mut subjects, run, &grids[run].main, known, told)?.unwrap_or(tick)
+                    find_task(&mut subjects, run, &grids[run].main, beforehand)?.unwrap_or(tick)
                 }
             };
             ticks.push(tick);
@@ -173,15 +215,28 @@ impl Study {
     }
 
     /// The same for recordings that `trained` has not seen. What its task does is as in the training where that has the same
-    /// cycle, and only its phase is found anew: what is fitted to a recording is not held out from it. The devices that are taken up again there are replayed in one go here,
-    /// from where their machine was at the start.
+    /// cycle, and only its phase is found anew, beside the effects that were `found` of each device there, in its order: what is fitted to a recording is not
+    /// held out from it. The devices that are taken up again there are replayed in one go here, from where their machine was at the start.
     ///
     /// # Errors
     /// As of [`Study::new`].
-    pub fn beside(plant: &Plant, recordings: &[Recording], trained: &Study) -> Result<Study, StudyError> {
+    pub fn beside(
+        plant: &Plant,
+        recordings: &[Recording],
+        trained: &Study,
+        found: &[Vec<EffectSpec>],
+    ) -> Result<Study, StudyError> {
         let cycles = trained.grids.iter().map(|grids| grids.main[Beat::Fast as usize].cycle);
         let known: Vec<(f64, Task)> = cycles.zip(trained.tasks.iter().copied()).collect();
-        let mut study = Study::aligned(plant, recordings, &known, Told::AsItActs)?;
+        let beforehand = Beforehand { known: Known::OfItsCycle(&known), ..Beforehand::NOTHING };
+        let mut study = Study::aligned(plant, recordings, beforehand)?;
+        if found.iter().any(|specs| !specs.is_empty()) && known.iter().any(|(_, task)| task.every_s > 0.0) {
+            let beside = Study::aligned(plant, recordings, Beforehand { added: found, ..beforehand })?;
+            if !study.is_told_like(&beside) {
+                let beforehand = Beforehand { known: Known::AsHeldOut(&beside), ..Beforehand::NOTHING };
+                study = Study::aligned(plant, recordings, beforehand)?;
+            }
+        }
         for (place, subject) in study.subjects.iter_mut().enumerate() {
             if subject.take_up_like(&trained.subjects[place]) {
                 study.nominal[place] = subject.predict(&[], &Overrides::none())?;
@@ -195,6 +250,20 @@ impl Study {
         Ok(study.with_bays(Some(trained))?)
     }
 
+    /// Whether the tasks of another study of the same recordings take all commands up, and report, at the same times.
+    pub(super) fn is_told_like(&self, other: &Study) -> bool {
+        let same = |run: usize| {
+            let [a, b]: [Task; 2] = [self, other].map(|study| study.tasks[run]);
+            let commands = self.subjects.iter().flat_map(|subject| &subject.runs[run].commands);
+            let mut told = commands.map(|(_, told)| told.at);
+            (a.age_s - b.age_s).abs() < SAME_AGE_S
+                && (a.filter_s - b.filter_s).abs() < SAME_FILTER_S
+                && (a.scatter_s > 0.0) == (b.scatter_s > 0.0)
+                && told.all(|at| (a.taken_up(at) - b.taken_up(at)).abs() < SAME_TIME_S)
+        };
+        (0..self.tasks.len()).all(same)
+    }
+
     /// The subject called so.
     pub fn subject(&self, name: &str) -> Option<&Subject> {
         self.subjects.iter().find(|subject| subject.name == name)
@@ -205,8 +274,31 @@ impl Study {
         self.subjects.par_iter().zip(&self.bare).map(|(subject, bare)| subject.score(&bare.prediction)).collect()
     }
 
+    /// The same with the nominal parameters fitted, and what is common to all found once more beside them. `are_explained`: by effects, so that
+    /// what is not off says something of a filter, too.
+    fn within_tolerances(self, recordings: &[Recording], are_explained: bool) -> Study {
+        let mut study = self.with_parameters();
+        // What we recorded ourselves passed none.
+        let is_machine = recordings.iter().all(|recording| recording.step().is_none());
+        let known = study.tasks.iter().map(|task| task.filter_s).fold(0.0, f64::max);
+        if is_machine
+            && (are_explained || study.subjects.iter().zip(&study.bare).any(is_off))
+            && let Some(filter_s) =
+                filter::find_beside_parameters(known, &mut study.subjects, &study.nominal, &mut study.bare)
+        {
+            study.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
+        }
+        if is_machine
+            && study.tasks.iter().any(|task| *task != Task::default())
+            && let Some(by_s) = age::find_beside_parameters(&mut study.subjects, &mut study.nominal, &mut study.bare)
+        {
+            study.tasks.iter_mut().for_each(|task| task.age_s += by_s);
+        }
+        study.widely()
+    }
+
     /// The same with the nominal parameters fitted.
-    fn within_tolerances(mut self, recordings: &[Recording]) -> Study {
+    fn with_parameters(mut self) -> Study {
         let each = self.subjects.par_iter().zip(&self.nominal).with_max_len(1);
         self.bare = each.map(|(subject, nominal)| Bare::new(subject, nominal)).collect();
         // What a drum leaves that is a per cent too large was taken for noise so far.
@@ -222,28 +314,21 @@ impl Study {
                 (*subject, *nominal, *bare) = whole;
             }
         });
-        let is_off = |(subject, bare): (&Subject, &Bare)| evidence(subject, &bare.prediction) > THRESHOLD;
-        // What we recorded ourselves passed none.
-        let is_machine = recordings.iter().all(|recording| recording.step().is_none());
-        let known = self.tasks.iter().map(|task| task.filter_s).fold(0.0, f64::max);
-        if is_machine
-            && self.subjects.iter().zip(&self.bare).any(is_off)
-            && let Some(filter_s) =
-                filter::find_beside_parameters(known, &mut self.subjects, &self.nominal, &mut self.bare)
-        {
-            self.tasks.iter_mut().for_each(|task| task.filter_s = filter_s);
-        }
-        if is_machine
-            && self.tasks.iter().any(|task| *task != Task::default())
-            && let Some(by_s) = age::find_beside_parameters(&mut self.subjects, &mut self.nominal, &mut self.bare)
-        {
-            self.tasks.iter_mut().for_each(|task| task.age_s += by_s);
-        }
+        self
+    }
+
+    /// The same with the parameters of what reports states alone and is off looked for far and wide.
+    fn widely(mut self) -> Study {
         let each = self.subjects.par_iter().zip(&self.nominal).zip(&mut self.bare);
         each.filter(|((subject, _), bare)| !subject.has_levels() && is_off((*subject, &**bare)))
             .for_each(|((subject, nominal), bare)| *bare = bare.widely(subject, nominal));
         self
     }
+}
+
+/// Whether a device is off as its tolerances let it stand.
+fn is_off((subject, bare): (&Subject, &Bare)) -> bool {
+    evidence(subject, &bare.prediction) > THRESHOLD
 }
 
 /// The tick of a run, which is set in all subjects.
@@ -267,36 +352,40 @@ fn find_tick(subjects: &mut [Subject], run: usize, grids: &[Arc<Grid>; 3]) -> Re
     Ok(tick)
 }
 
+/// Times of two tasks that differ by no more are one, s: how old reports are, how slow the filter of flags, and when commands are taken up.
+const SAME_AGE_S: f64 = 3e-6;
+const SAME_FILTER_S: f64 = 1e-4;
+const SAME_TIME_S: f64 = 5e-6;
 /// By how much two cycles may differ that are the same, of the cycle.
 const SAME_CYCLE: f64 = 0.01;
 
-/// What the machine's task does to all devices of a run alike, which is set in them; its tick, s, where there is such. Where one of
-/// `known` was found at the same cycle, it is that one, and only its phase is this run's.
+/// What the machine's task does to all devices of a run alike, which is set in them; its tick, s, where there is such. Where one is
+/// known that was found at the same cycle, it is that one, and only its phase is this run's.
 fn find_task(
     subjects: &mut [Subject],
     run: usize,
     grids: &[Arc<Grid>; 3],
-    known: &[(f64, Task)],
-    told: Told,
+    Beforehand { known, told, .. }: Beforehand<'_>,
 ) -> Result<Option<f64>, EffectError> {
     let main = &grids[Beat::Fast as usize];
     subjects.par_iter_mut().try_for_each(|subject| calibrate(subject).map(drop))?;
-    let is_same = |(cycle, _): &&(f64, Task)| (cycle - main.cycle).abs() <= SAME_CYCLE * main.cycle;
-    if let Some((_, task)) = known.iter().find(is_same).filter(|_| main.is_rebuilt) {
-        if *task == Task::default() {
-            return Ok(None);
+    match known {
+        Known::OfItsCycle(known) => {
+            let is_same = |(cycle, _): &&(f64, Task)| (cycle - main.cycle).abs() <= SAME_CYCLE * main.cycle;
+            if let Some((_, task)) = known.iter().find(is_same).filter(|_| main.is_rebuilt) {
+                let is_one = *task != Task::default();
+                let task = if is_one { task::find_phase(subjects, run, *task)? } else { *task };
+                return take_task(subjects, run, task, false);
+            }
         }
-        let task = task::find_phase(subjects, run, *task)?;
-        subjects.iter_mut().for_each(|subject| {
-            subject.set_tick(run, 0.0, 0.0);
-            subject.set_task(run, task);
-        });
-        if task.scatter_s > 0.0 {
-            let bare = within_tolerances(subjects)?;
-            find_ways(subjects, &bare, run, Some(task.scatter_s))?;
+        Known::As(found) => {
+            for (subject, found) in subjects.iter_mut().zip(&found.subjects) {
+                subject.likely = found.likely.clone();
+            }
+            return take_task(subjects, run, found.tasks[run], true);
         }
-        // Its reports are as old as those of the training within some ten microseconds: as far as is taken of a run without a task.
-        return Ok(Some(task.every_s));
+        Known::AsHeldOut(found) => return take_task(subjects, run, found.tasks[run], false),
+        Known::Nothing => {}
     }
     let found = if main.is_rebuilt { task::find(subjects, run, main.cycle)? } else { None };
     let found = found.map(|(task, likely)| {
@@ -325,6 +414,33 @@ fn find_task(
         });
     }
     Ok(found.map(|task| task.every_s))
+}
+
+/// Sets a task that is known; its tick, s, where there is such. `is_timed`: how far the instants of the run are off is found with it.
+fn take_task(subjects: &mut [Subject], run: usize, task: Task, is_timed: bool) -> Result<Option<f64>, EffectError> {
+    if task == Task::default() {
+        return Ok(None);
+    }
+    // Of one that is a filter alone the tick is as it was found.
+    let is_filter_alone = is_timed && Task { filter_s: 0.0, ..task } == Task::default();
+    subjects.iter_mut().for_each(|subject| {
+        if !is_filter_alone {
+            subject.set_tick(run, 0.0, 0.0);
+        }
+        subject.set_task(run, task);
+    });
+    if is_filter_alone {
+        return Ok(None);
+    }
+    if is_timed {
+        find_timing(subjects, run)?;
+    }
+    if task.scatter_s > 0.0 {
+        let bare = within_tolerances(subjects)?;
+        find_ways(subjects, &bare, run, Some(task.scatter_s))?;
+    }
+    // Reports that are held out are as old as those of the training within some ten microseconds: as far as is taken of a run without a task.
+    Ok(Some(task.every_s))
 }
 
 /// When the commands of a run acted whose ways scatter, which is set in all subjects; `known`: by how much they do, s.

@@ -24,7 +24,7 @@ use super::page::{Added, Evidence, gather};
 use super::report::{FoundClock, NotTestable, Report, SignalNames};
 use super::{ClockOffset, Recording, Study, StudyError, Subject, evidence};
 use crate::effect::EffectError;
-use crate::plant::Plant;
+use crate::plant::{EffectSpec, Plant};
 use held_out::Measured;
 
 /// What is asked of a diagnosis.
@@ -83,11 +83,12 @@ pub fn diagnose(
 ) -> Result<Diagnosis, StudyError> {
     let study = Study::new(plant, train)?;
     let findings = find_all(plant, &study, options);
-    let (study, findings) = match refound::beside_effects(plant, &study, &findings, options)? {
+    let (study, findings) = match refound::beside_effects(plant, train, (&study, &findings), options)? {
         Some(again) => again,
         None => (study, findings),
     };
-    let mut held_out = Study::beside(plant, held_out, &study)?;
+    let found = specs_of(study.subjects.len(), &findings);
+    let mut held_out = Study::beside(plant, held_out, &study, &found)?;
     let too_fast = untrained::leave_out(&mut held_out, &study);
     let measured = Measured::new(plant, &held_out, &findings);
     let mut report = Report::new(verdict::verdict(&study, &findings));
@@ -126,6 +127,15 @@ fn find_all(plant: &Plant, study: &Study, options: &Options<'_>) -> Vec<Finding>
         .collect();
     findings.sort_by_key(|finding| finding.subject);
     findings
+}
+
+/// The effects that were found of each of so many devices, in their order.
+fn specs_of(devices: usize, findings: &[Finding]) -> Vec<Vec<EffectSpec>> {
+    let specs = |place: usize| {
+        let finding = findings.iter().find(|finding| finding.subject == place);
+        finding.map_or_else(Vec::new, Finding::specs)
+    };
+    (0..devices).map(specs).collect()
 }
 
 /// Whether an entry is of the device that was looked at.

@@ -1,63 +1,119 @@
 //! What is common to all devices, found again beside the effects of each.
 //!
-//! The filter of all inputs is looked for before any device is. A cylinder that is slower one way than the other is late with all of its flags, and that had
-//! been taken for a filter; where a vacuum is late as well, nobody else says how slow the filter is, and a robot's arrivals seem to be late by themselves. So
-//! once it is known what each device has, the filter is found anew beside that, and where it is another, all devices are looked at again.
+//! When commands are taken up, how old reports are and how slow the filter of all inputs is are looked for before any device is. A motor that follows slowly
+//! counts as if its commands were taken up a cycle of the task later; a cylinder that is slower one way than the other is late with all of its flags, and that had
+//! been taken for a filter. So where something is left beside what devices have, or more than one effect was needed, what is common is found anew as if the model
+//! had those effects, and where that is another, all devices are looked at again.
 
-use super::{Conclusion, Finding, Options, find_all};
-use crate::gap::filter::{find_beside_effects, with_filter};
-use crate::gap::{Study, StudyError};
-use crate::plant::Plant;
+use std::cmp::Reverse;
 
-/// The study with the filter that is found beside the effects of `findings`, and what is found with it; `None` where it is as it was, or no more is explained
-/// by as few effects.
+use super::{Conclusion, Finding, Options, find_all, specs_of};
+use crate::gap::{Recording, Study, StudyError, THRESHOLD, evidence};
+use crate::plant::{EffectPlace, EffectSpec, ParameterValue, Plant};
+
+/// How often.
+const ROUNDS: usize = 3;
+/// How late a task makes anything at most, s: its cycle, or the age of what is reported.
+const LONGEST_S: f64 = 4e-3;
+
+/// The study with what is common to all as it is found beside the effects of `findings`, and what is found with it; `None` where it is as it was, or no more
+/// is explained by as few effects.
 pub(super) fn beside_effects(
     plant: &Plant,
-    study: &Study,
-    findings: &[Finding],
+    train: &[Recording],
+    (study, findings): (&Study, &[Finding]),
     options: &Options<'_>,
 ) -> Result<Option<(Study, Vec<Finding>)>, StudyError> {
-    // What draws anew each time makes flags late, too, and says nothing of a filter.
-    let is_told = findings.iter().any(|finding| !finding.specs().is_empty());
-    let is_drawn = findings.iter().any(|finding| finding.chance.is_some());
-    if !is_told || is_drawn || (options.is_stopped)() {
-        return Ok(None);
-    }
-    let found = study.bare.iter().enumerate().map(|(place, bare)| {
-        let finding = findings.iter().find(|finding| finding.subject == place);
-        let named = finding.map(|finding| (finding.specs(), finding)).filter(|(specs, _)| !specs.is_empty());
-        match named {
-            Some((specs, finding)) => (specs, finding.ladder.best.overrides.clone()),
-            None => (Vec::new(), bare.overrides.clone()),
+    let mut best: Option<(Study, Vec<Finding>)> = None;
+    for _ in 0..ROUNDS {
+        let (study, findings) = best.as_ref().map_or((study, findings), |(study, findings)| (study, findings));
+        if !is_asked(study, findings) {
+            break;
         }
-    });
-    let found: Vec<_> = found.collect();
-    let Some(filter_s) = find_beside_effects(study, &found) else { return Ok(None) };
-    let again = with_filter(study, filter_s)?;
-    let anew = find_all(plant, &again, options);
-    Ok((is_better(&anew, findings)).then_some((again, anew)))
+        let mut better = None;
+        for added in added(study.subjects.len(), findings) {
+            if (options.is_stopped)() {
+                break;
+            }
+            let beside = Study::beside_effects(plant, train, &added)?;
+            if study.is_told_like(&beside) {
+                continue;
+            }
+            let again = Study::under(plant, train, &beside)?;
+            let anew = find_all(plant, &again, options);
+            // What was broken off says nothing.
+            if !(options.is_stopped)() && is_better(&anew, findings) {
+                better = Some((again, anew));
+                break;
+            }
+        }
+        if better.is_none() {
+            break;
+        }
+        best = better;
+    }
+    Ok(best)
 }
 
-/// Whether more devices are explained, or as many by no more effects.
+/// The effects beside which what is common to all is found, device by device: those that are no task's doing, where some may be, and all.
+fn added(devices: usize, findings: &[Finding]) -> Vec<Vec<Vec<EffectSpec>>> {
+    let all = specs_of(devices, findings);
+    let others: Vec<Vec<EffectSpec>> =
+        all.iter().map(|each| each.iter().filter(|spec| !may_be_a_tasks(spec)).cloned().collect()).collect();
+    if others == all { vec![all] } else { vec![others, all] }
+}
+
+/// Whether an effect is one that the task of a machine has on all of its devices: what a link or an input is late by, or how often it is refreshed.
+fn may_be_a_tasks(spec: &EffectSpec) -> bool {
+    const LATE: [&str; 5] = ["dead-time", "stale-hold", "on-delay", "off-delay", "input-filter"];
+    const PLACES: [EffectPlace; 3] = [EffectPlace::CommandLink, EffectPlace::ReportLink, EffectPlace::Sensor];
+    let is_short = |value: &ParameterValue| matches!(value, ParameterValue::Number(time) if *time <= LONGEST_S);
+    PLACES.contains(&spec.place) && LATE.contains(&spec.kind.as_str()) && spec.parameters.values().all(is_short)
+}
+
+/// Whether what was found leaves room for something else: what is common to all.
+fn is_asked(study: &Study, findings: &[Finding]) -> bool {
+    let effects = findings.iter().map(|finding| finding.specs().len()).sum::<usize>();
+    // What draws anew each time makes reports late, too, and says nothing of when they are.
+    let is_drawn = findings.iter().any(|finding| finding.chance.is_some());
+    let leaves = |finding: &Finding| {
+        let subject = &study.subjects[finding.subject];
+        let predicted = subject.predict(&finding.specs(), &finding.ladder.best.overrides);
+        predicted.is_ok_and(|predicted| evidence(subject, &predicted) > THRESHOLD)
+    };
+    let is_open = |finding: &Finding| match finding.conclusion {
+        Conclusion::Partial | Conclusion::Unknown => true,
+        Conclusion::Explained => leaves(finding),
+        Conclusion::NoGap | Conclusion::TooShort => false,
+    };
+    effects > 0 && !is_drawn && (effects > 1 || findings.iter().any(is_open))
+}
+
+/// Whether more devices are explained, or as many and of fewer nothing is, or as many by no more effects.
 fn is_better(anew: &[Finding], before: &[Finding]) -> bool {
-    let is_explained = |finding: &&Finding| matches!(finding.conclusion, Conclusion::NoGap | Conclusion::Explained);
-    let explained = |findings: &[Finding]| findings.iter().filter(is_explained).count();
-    let effects = |findings: &[Finding]| findings.iter().map(|finding| finding.specs().len()).sum::<usize>();
-    let more = explained(anew).cmp(&explained(before));
-    more.is_gt() || more.is_eq() && effects(anew) <= effects(before)
+    let merit = |findings: &[Finding]| {
+        let count = |conclusions: &[Conclusion]| {
+            findings.iter().filter(|finding| conclusions.contains(&finding.conclusion)).count()
+        };
+        let effects = findings.iter().map(|finding| finding.specs().len()).sum::<usize>();
+        let explained = count(&[Conclusion::NoGap, Conclusion::Explained]);
+        (explained, Reverse(count(&[Conclusion::Unknown])), Reverse(effects))
+    };
+    merit(anew) >= merit(before)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::recorded_tests::{LEAK_BEHIND_A_FILTER, rig, study};
+    use crate::gap::recorded_tests::{LEAK_BEHIND_A_FILTER, of_folder, recording, rig, study};
 
     /// What the filter of all inputs is found to be beside a leak, s, and what is found of each device with it, where there are these effects.
     fn found_beside(asked: &[&str], study: &Study) -> Option<(f64, Vec<String>)> {
         let is_asked = |id: &str| asked.contains(&id);
         let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
         let findings = find_all(&rig(), study, &options);
-        let (again, anew) = beside_effects(&rig(), study, &findings, &options).expect("a model that fits")?;
+        let found = beside_effects(&rig(), &[recording(LEAK_BEHIND_A_FILTER)], (study, &findings), &options);
+        let (again, anew) = found.expect("a model that fits")?;
         let named = |finding: &Finding| finding.specs().into_iter().map(|spec| spec.kind).collect::<Vec<_>>();
         Some((again.tasks[0].filter_s, anew.iter().flat_map(named).collect()))
     }
@@ -72,6 +128,62 @@ mod tests {
         assert_eq!(named, ["leak"]);
         // Where nothing is found there is nothing to find it beside.
         assert!(found_beside(&["jerk-limit"], &study).is_none());
+    }
+
+    /// A motor that follows its commands slowly counts as if they were taken up elsewhere in the task's cycle: 1 µs of its phase decides for some of them, and beside
+    /// what was found of the motor it is found. What is held out is told so as well.
+    #[test]
+    fn a_phase_is_found_beside_a_motor_that_follows_slowly() {
+        let (plant, recording) = of_folder("tests/data/motor-that-follows-slowly");
+        let train = [recording];
+        let study = Study::new(&plant, &train).expect("a study");
+        let is_asked = |id: &str| id == "second-order-lag";
+        let options = Options { is_asked: &is_asked, is_meant: &|_| true, is_stopped: &|| false, tell: &|_| {} };
+        let findings = find_all(&plant, &study, &options);
+        let found = beside_effects(&plant, &train, (&study, &findings), &options).expect("a model that fits");
+        let (again, anew) = found.expect("another phase");
+        let frequency = |findings: &[Finding]| {
+            let named = findings.iter().find(|finding| !finding.specs().is_empty()).expect("a lag");
+            assert_eq!(named.specs()[0].kind, "second-order-lag");
+            (named.ladder.best.at[0] / 37.03 - 1.0).abs()
+        };
+        assert!(
+            frequency(&findings) > 0.01 && frequency(&anew) < 0.005,
+            "{} {}",
+            frequency(&findings),
+            frequency(&anew)
+        );
+        // Of what is held out, too, more is explained with the phase that is found beside it.
+        let left = |found: &[_]| {
+            let held_out = Study::beside(&plant, &train, &again, found).expect("a study");
+            let named = anew.iter().find(|finding| !finding.specs().is_empty()).expect("a lag");
+            let subject = &held_out.subjects[named.subject];
+            let predicted = subject.predict(&named.specs(), &named.ladder.best.overrides).expect("a prediction");
+            subject.score(&predicted).total
+        };
+        let (with, without) = (left(&specs_of(again.subjects.len(), &anew)), left(&[]));
+        assert!(with < without - 10.0, "{with} {without}");
+    }
+
+    /// A delay of a millisecond of a link or an input may be the task's own; one of ten, or of a drive, is not.
+    #[test]
+    fn what_a_task_does_is_short_and_of_a_link() {
+        let spec = |place: EffectPlace, kind: &str, time: f64| EffectSpec {
+            place,
+            kind: kind.to_owned(),
+            component: None,
+            parameters: [("time".to_owned(), ParameterValue::Number(time))].into(),
+        };
+        let asked = [
+            (EffectPlace::CommandLink, "stale-hold", 1e-3),
+            (EffectPlace::ReportLink, "dead-time", 1e-3),
+            (EffectPlace::CommandLink, "stale-hold", 1e-2),
+            (EffectPlace::Actuator, "dead-time", 1e-3),
+            (EffectPlace::Sensor, "on-delay", 1e-3),
+            (EffectPlace::Sensor, "drift", 1e-3),
+        ];
+        let are = asked.map(|(place, kind, time)| may_be_a_tasks(&spec(place, kind, time)));
+        assert_eq!(are, [true, true, false, false, true, false]);
     }
 
     /// As many devices explained by fewer effects are better, fewer devices are not.
@@ -94,5 +206,6 @@ mod tests {
         assert!(is_better(&fewer, &both) && is_better(&both, &both) && !is_better(&both, &fewer));
         assert!(!is_better(&with(Conclusion::Unknown, false), &both));
         assert!(is_better(&both, &with(Conclusion::Partial, true)));
+        assert!(!is_better(&with(Conclusion::Unknown, false), &with(Conclusion::Partial, true)));
     }
 }

@@ -30,7 +30,7 @@ const NUDGE: f64 = 0.02;
 /// The least age from which slopes are taken, s.
 const LEAST_SPAN_S: f64 = 1e-4;
 /// How much nearer each of the others must come where they contradict one, in deviance: χ² of one degree of freedom at 0.1 %.
-const SURELY_NEARER: f64 = 10.83;
+pub(super) const SURELY_NEARER: f64 = 10.83;
 /// What is so many times further off than the greatest age could move it, such as metres that are told as millimetres, has no say where
 /// anything else of the device has.
 const FAR_OFF: f64 = 30.0;
@@ -111,11 +111,10 @@ impl Voter {
             alike: None,
             subject,
         };
-        voter.kept = voter.moving(&nominal);
+        voter.keep(voter.moving(&nominal));
         if voter.kept.is_empty() {
             return Ok(None);
         }
-        voter.count = voter.kept.iter().map(|(place, _)| voter.subject.runs[0].floors[*place].share()).sum();
         voter.strain = DVector::zeros(voter.free.len());
         Ok(Some(voter))
     }
@@ -149,6 +148,22 @@ impl Voter {
         }
         *self = best.1;
         Ok(())
+    }
+
+    /// Lets what was far off with the nominal parameters as they are declared have its say with those that it is known to have, where it is far off no more:
+    /// each ramp of a motor that is two per cent steeper leaves counts, and what they sum up to had made its encoder be heard no more.
+    pub fn hear_again(&mut self, task: Task) -> Result<(), EffectError> {
+        let kept = self.moving(&self.subject.predict(&[], &self.overrides())?);
+        if kept.len() > self.kept.len() {
+            self.keep(kept);
+            self.centre(task)?;
+        }
+        Ok(())
+    }
+
+    fn keep(&mut self, kept: Vec<(usize, usize)>) {
+        self.count = kept.iter().map(|(place, _)| self.subject.runs[0].floors[*place].share()).sum();
+        self.kept = kept;
     }
 
     /// Whether it counts, and one nominal parameter alone may be off.
