@@ -147,7 +147,8 @@ pub fn climb(
             }
         }
         let is_dropped = drop_idle(bench, &mut ladder);
-        let is_open = is_dropped || end == Rung::Unsure || ladder.best.set.is_empty();
+        // Of what reports states alone two delays that take each other's place say nothing before both give way; it is replayed in no time.
+        let is_open = is_dropped || end == Rung::Unsure || ladder.best.set.is_empty() || !bench.subject.has_levels();
         if !is_open || !step_by_two(bench, &mut ladder, is_asked, tell) {
             break;
         }

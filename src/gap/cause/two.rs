@@ -4,7 +4,7 @@
 //! target by a lag and accelerates no faster than it can is one: beside a dead time as long as both take, the lag gains
 //! nothing until the dead time gives way, the acceleration nothing that lasts without the lag, and a limit of speed that is
 //! not there stands for both. So here what each candidate gains is asked with all that was found given free, and the best of them are
-//! stones to step on to a second one.
+//! stones to step on to a second one; or one is enough, where all gives way to it.
 //!
 //! Such a motion comes once in many a recording. That no long span without it can predict it is no wonder: from here on an effect has
 //! to be worth having on blocks of the same span that its fit did not see.
@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 
 use super::bench::{Bench, Trial};
-use super::candidate::Candidate;
+use super::candidate::{Candidate, Free};
 use super::glance::Sought;
 use super::ladder::{Ladder, MOST_EFFECTS, MOST_INFLATED, Standing, Tell, anew, is_worth_having, settle};
 use super::rung::{library_beside, rung};
@@ -60,6 +60,13 @@ pub fn step_by_two(
         (stones(&ladder.singles, FIRST_STONES), 0)
     } else {
         let Some((free, tried)) = beside_what_was_found(&weighed, &below, is_asked) else { return false };
+        // One may be enough where all that was found gives way to it.
+        if let Some(alone) = free.first() {
+            ladder.tried += tried;
+            if takes(bench, ladder, &weighed, &below, alone) {
+                return true;
+            }
+        }
         (stones(&free, STONES), tried)
     };
     let mut pairs: Vec<Trial> = Vec::new();
@@ -74,15 +81,20 @@ pub fn step_by_two(
     }
     ladder.tried += tried + pairs.len();
     let pair = pairs.iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let settled = pair.and_then(|pair| settle(bench, &weighed, pair, false)).and_then(|(pair, subject)| {
-        let deeper = deepest(&bench.with(&subject), &pair, below.parameters());
+    pair.is_some_and(|pair| takes(bench, ladder, &weighed, &below, pair))
+}
+
+/// Takes a set, settled, in the place of the best one `below`, if it is worth having; whether it was.
+fn takes(bench: &Bench<'_>, ladder: &mut Ladder, weighed: &Bench<'_>, below: &Trial, set: &Trial) -> bool {
+    let settled = settle(bench, weighed, set, false).and_then(|(set, subject)| {
+        let deeper = deepest(&bench.with(&subject), &set, below.parameters());
         settle(bench, &bench.with(&subject), &deeper, false)
     });
-    let Some((pair, subject)) = settled else { return false };
+    let Some((set, subject)) = settled else { return false };
     let before = std::mem::replace(&mut ladder.folds, Folds::Short);
-    let is_worth = is_worth_having(&bench.with(&subject), &below, &pair, ladder);
+    let is_worth = is_worth_having(&bench.with(&subject), below, &set, ladder);
     match is_worth {
-        true => (ladder.best, ladder.subject) = (pair, subject),
+        true => (ladder.best, ladder.subject) = (set, subject),
         false => ladder.folds = before,
     }
     is_worth
@@ -113,7 +125,10 @@ fn beside_what_was_found(
     let mut begun: Vec<Begun> = alone.filter_map(|(_, candidate)| giving_way(weighed, below, candidate)).collect();
     begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     begun.truncate(FITTED);
-    let fit = |Begun { set, at, .. }: Begun| weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()));
+    let fit = |Begun { set, at, .. }: Begun| {
+        let found = weighed.fit(&set, std::slice::from_ref(&at), anew(at.len()))?;
+        Some(in_their_place(weighed, &found, below.parameters()).unwrap_or(found))
+    };
     let mut free: Vec<Trial> = begun.into_par_iter().with_max_len(1).filter_map(fit).collect();
     free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     Some((free, tried))
@@ -191,6 +206,23 @@ fn giving_way(bench: &Bench<'_>, below: &Trial, candidate: Candidate) -> Option<
     Some(Begun { set, at, cost })
 }
 
+/// A trial whose last effect, a delay, takes as much of the place of one of the others, the first `known` figures, where that costs less: of edges that come later by
+/// both, no slope leads there while each of the two alone explains some of them to the moment.
+fn in_their_place(bench: &Bench<'_>, trial: &Trial, known: usize) -> Option<Trial> {
+    let free: Vec<&Free> = trial.set.iter().flat_map(|candidate| &candidate.free).collect();
+    let new: Vec<usize> = (known..free.len()).filter(|place| free[*place].is_time).collect();
+    let [new] = new.as_slice() else { return None };
+    let instead = |place: usize| {
+        let mut at = trial.at.clone();
+        at[place] -= trial.at[*new];
+        bench.trial(&trial.set, at)
+    };
+    let others = (0..known).filter(|place| free[*place].is_time && trial.at[*place] > trial.at[*new]);
+    let cheapest = others.filter_map(instead).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let fitted = bench.fit(&trial.set, std::slice::from_ref(&cheapest.at), anew(cheapest.at.len()))?;
+    (fitted.cost < trial.cost).then_some(fitted)
+}
+
 /// A drive whose speed may not follow its loop swings, and its deviance has false minima side by side along each of its figures: where
 /// one is deeper a little further on, from there downhill. The figures after the first `known` are tried.
 fn deepest(bench: &Bench<'_>, trial: &Trial, known: usize) -> Trial {
@@ -235,6 +267,8 @@ mod tests {
     use super::*;
     use crate::gap::Subject;
     use crate::gap::cause::axis_tests::{ending_at, report_as, rubbing_axis};
+    use crate::gap::cause::ladder::climb;
+    use crate::gap::recorded_tests::study_of_folder;
 
     /// An axis that rubs has a gap, whatever explains it; one that reports what is predicted has none.
     #[test]
@@ -249,5 +283,20 @@ mod tests {
         assert!(bears(&subject, None) && !bears(&subject, Some(2.0)));
         report_as(&mut subject, &nominal);
         assert!(!bears(&subject, None));
+    }
+    /// Vacuum comes after 0.2 s, and all that the gripper is told 0.13 s late: a build-up of 0.33 s alone explains when it comes, and a dead time beside that when it goes.
+    #[test]
+    fn a_delay_takes_as_much_of_anothers_place() {
+        let study = study_of_folder("tests/data/gripper-with-two-delays");
+        let subject = study.subject("Vacuum_46").expect("it moves");
+        let stop = || false;
+        let bench = Bench::new(subject, Vec::new(), &stop);
+        let asked = |id: &str| ["vacuum-build-up", "dead-time"].contains(&id);
+        let ladder = climb(&bench, (&[], 0.0), &asked, &|_| {}).expect("a ladder");
+        let found: Vec<(&str, f64)> =
+            ladder.best.values().map(|(candidate, at)| (candidate.effect.id, at[0])).collect();
+        let near = |(id, at): (&str, f64), (told, time): (&str, f64)| id == told && (at - time).abs() < 0.015;
+        let [one, other] = found.as_slice() else { panic!("{found:?}") };
+        assert!(near(*one, ("vacuum-build-up", 0.2)) && near(*other, ("dead-time", 0.13)), "{found:?}");
     }
 }
