@@ -373,8 +373,7 @@ fn find_task(
         Known::OfItsCycle(known) => {
             let is_same = |(cycle, _): &&(f64, Task)| (cycle - main.cycle).abs() <= SAME_CYCLE * main.cycle;
             if let Some((_, task)) = known.iter().find(is_same).filter(|_| main.is_rebuilt) {
-                let is_one = *task != Task::default();
-                let task = if is_one { task::find_phase(subjects, run, *task)? } else { *task };
+                let task = task::find_phase(subjects, run, *task)?;
                 return take_task(subjects, run, task, false);
             }
         }

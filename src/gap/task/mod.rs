@@ -104,10 +104,7 @@ fn agreed(
     if voters.is_empty() {
         return Ok((None, Vec::new()));
     }
-    voters.par_iter_mut().try_for_each(|voter| {
-        voter.centre(Task::default())?;
-        voter.hear_again(Task::default())
-    })?;
+    voters.par_iter_mut().try_for_each(|voter| voter.centre_all(Task::default()))?;
     let now = voters.par_iter().map(|voter| voter.moments(None)).collect::<Result<Vec<_>, _>>()?;
     let before: Vec<f64> = now.iter().map(|moments| moments.cost(0.0)).collect();
     let mut best = Best::of(&mut voters, cycle)?;
@@ -164,31 +161,28 @@ pub(super) fn find_phase(subjects: &[Subject], run: usize, known: Task) -> Resul
         return Ok(known);
     }
     let mut voters = voters(subjects, run)?;
-    voters.par_iter_mut().try_for_each(|voter| {
-        voter.centre(known)?;
-        voter.hear_again(known)
-    })?;
-    let mut best = phase_of(&voters, known, known.phase_s)?;
+    let mut found = known;
     // What a motor is built to was found under another run's phase.
-    for _ in 0..ROUNDS {
-        let found = Task { phase_s: best.1, ..known };
-        voters.par_iter_mut().try_for_each(|voter| voter.centre(found))?;
-        best = phase_of(&voters, known, found.phase_s)?;
-        if (best.1 - found.phase_s).abs() < SAME_PHASE_S {
+    for _ in 0..=ROUNDS {
+        voters.par_iter_mut().try_for_each(|voter| voter.centre_all(found))?;
+        let phase_s = phase_of(&voters, found)?;
+        let is_settled = (phase_s - found.phase_s).abs() < SAME_PHASE_S;
+        found.phase_s = phase_s;
+        if is_settled {
             break;
         }
     }
-    Ok(Task { phase_s: best.1, ..known })
+    Ok(found)
 }
 
-/// What a task costs with the likeliest of all phases, and that phase, s; of those that cost the same `first`.
-fn phase_of(voters: &[Voter], known: Task, first: f64) -> Result<(f64, f64), EffectError> {
+/// The likeliest of all phases of a task, s; of those that cost the same its own.
+fn phase_of(voters: &[Voter], known: Task) -> Result<f64, EffectError> {
     let cost = |phase_s: f64| -> Result<(f64, f64), EffectError> {
         let task = Task { phase_s: phase_s.rem_euclid(known.every_s), ..known };
         let each = voters.par_iter().map(|voter| Ok(voter.moments(Some(task))?.cost(known.age_s)));
         Ok((each.collect::<Result<Vec<f64>, EffectError>>()?.iter().sum(), task.phase_s))
     };
-    let mut best = cost(first)?;
+    let mut best = cost(known.phase_s)?;
     let mut try_all = |phases: &mut dyn Iterator<Item = f64>| -> Result<f64, EffectError> {
         for phase_s in phases {
             let found = cost(phase_s)?;
@@ -203,8 +197,7 @@ fn phase_of(voters: &[Voter], known: Task, first: f64) -> Result<(f64, f64), Eff
         let step = whole / f64::from(1u32 << halving);
         phase_s = try_all(&mut [-2.0, -1.0, 1.0, 2.0].into_iter().map(|steps| phase_s + steps * step))?;
     }
-    try_all(&mut phases_near(voters, Task { phase_s, ..known }).into_iter())?;
-    Ok(best)
+    try_all(&mut phases_near(voters, Task { phase_s, ..known }).into_iter())
 }
 
 /// How many phases of a task are tried at first; of commands that are taken up at once there is one.

@@ -19,6 +19,9 @@ pub(super) fn outvoted(
     (before, best): (&[f64], &Best),
     cycle: f64,
 ) -> Result<Option<(Best, Vec<Voter>)>, EffectError> {
+    if voters.len() <= LEAST_DEVICES {
+        return Ok(None);
+    }
     let squares = |costs: &[f64]| -> Vec<f64> {
         voters.iter().zip(costs).map(|(voter, cost)| voter.mean_square_at(*cost)).collect()
     };
@@ -36,9 +39,6 @@ pub(super) fn outvoted(
         is_another_off && (are_worse || now[*place] >= EXPLAINED)
     };
     let mut chosen: Option<(Best, Vec<Voter>)> = None;
-    if voters.len() <= LEAST_DEVICES {
-        return Ok(None);
-    }
     for place in (0..voters.len()).filter(speaks_against) {
         let mut others = voters.to_vec();
         let mut alone = others.remove(place);

@@ -150,9 +150,10 @@ impl Voter {
         Ok(())
     }
 
-    /// Lets what was far off with the nominal parameters as they are declared have its say with those that it is known to have, where it is far off no more:
-    /// each ramp of a motor that is two per cent steeper leaves counts, and what they sum up to had made its encoder be heard no more.
-    pub fn hear_again(&mut self, task: Task) -> Result<(), EffectError> {
+    /// The same, and lets what was far off with the nominal parameters as they are declared have its say with those that it is known to have, where it is far off
+    /// no more: each ramp of a motor that is two per cent steeper leaves counts, and what they sum up to had made its encoder be heard no more.
+    pub fn centre_all(&mut self, task: Task) -> Result<(), EffectError> {
+        self.centre(task)?;
         let kept = self.moving(&self.subject.predict(&[], &self.overrides())?);
         if kept.len() > self.kept.len() {
             self.keep(kept);
