@@ -67,6 +67,7 @@ mod shortfall;
 mod silence;
 mod stamps;
 pub mod statistics;
+mod stop;
 mod study;
 mod subject;
 mod surroundings;

@@ -8,6 +8,7 @@
 use std::cmp::Reverse;
 
 use super::{Conclusion, Finding, Options, find_all, specs_of};
+use crate::gap::stop;
 use crate::gap::{Recording, Study, StudyError, THRESHOLD, evidence};
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue, Plant};
 
@@ -35,13 +36,20 @@ pub(super) fn beside_effects(
             if (options.is_stopped)() {
                 break;
             }
-            let beside = Study::beside_effects(plant, train, &added)?;
-            if study.is_told_like(&beside) {
-                continue;
-            }
-            let again = Study::under(plant, train, &beside)?;
-            let anew = find_all(plant, &again, options);
+            let again = stop::until(options.is_stopped, |stop| {
+                let beside = Study::beside_effects(plant, train, &added, Some(&stop))?;
+                if study.is_told_like(&beside) {
+                    Ok(None)
+                } else {
+                    Study::under(plant, train, &beside, &stop).map(Some)
+                }
+            });
             // What was broken off says nothing.
+            if (options.is_stopped)() {
+                break;
+            }
+            let Some(again) = again? else { continue };
+            let anew = find_all(plant, &again, options);
             if !(options.is_stopped)() && is_better(&anew, findings) {
                 better = Some((again, anew));
                 break;
@@ -130,6 +138,24 @@ mod tests {
         assert!(found_beside(&["jerk-limit"], &study).is_none());
     }
 
+    /// A belt shows that its bay makes longer parts, and has no such effect.
+    #[test]
+    fn what_a_bay_makes_is_none_of_its_belts_effects() {
+        let (plant, train) = (rig(), [recording(LEAK_BEHIND_A_FILTER)]);
+        let study = study(LEAK_BEHIND_A_FILTER);
+        let longer = EffectSpec {
+            place: EffectPlace::Process,
+            kind: "part-length-error".to_owned(),
+            component: None,
+            parameters: [("length".to_owned(), ParameterValue::Number(0.02))].into(),
+        };
+        let of = |name: &str| if name == "Belt" { vec![longer.clone()] } else { Vec::new() };
+        let added: Vec<_> = study.subjects.iter().map(|subject| of(&subject.name)).collect();
+        assert!(added.iter().any(|each| !each.is_empty()));
+        let beside = Study::beside_effects(&plant, &train, &added, None).expect("a model that fits");
+        assert!(study.is_told_like(&beside));
+    }
+
     /// A motor that follows its commands slowly counts as if they were taken up elsewhere in the task's cycle: 1 µs of its phase decides for some of them, and beside
     /// what was found of the motor it is found. What is held out is told so as well.
     #[test]
@@ -155,7 +181,7 @@ mod tests {
         );
         // Of what is held out, too, more is explained with the phase that is found beside it.
         let left = |found: &[_]| {
-            let held_out = Study::beside(&plant, &train, &again, found).expect("a study");
+            let held_out = Study::beside(&plant, &train, &again, found, &|| false).expect("a study");
             let named = anew.iter().find(|finding| !finding.specs().is_empty()).expect("a lag");
             let subject = &held_out.subjects[named.subject];
             let predicted = subject.predict(&named.specs(), &named.ladder.best.overrides).expect("a prediction");
