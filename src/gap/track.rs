@@ -1,6 +1,7 @@
 //! A recorded signal on the grid of its reports.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::grid::Grid;
@@ -181,17 +182,35 @@ impl Track {
         let count = predicted.len();
         let Some(first) = (0..count).find(|k| !self.is_blind(self.first + k)) else { return };
         if first > 0 || self.values.first().is_some_and(|recorded| recorded.abs() > STARTED_FRESH) {
-            let base = count_base(&self.values[first..], &predicted[first..]);
+            let base = middle(count_base(self.counts(first..count, predicted)));
             predicted.iter_mut().for_each(|value| *value += base);
         }
-        for (at, index) in self.anew.iter().enumerate() {
-            let place = |index: usize| index.saturating_sub(self.first).min(count);
-            let (from, to) = (place(*index), self.anew.get(at + 1).map_or(count, |next| place(*next)));
-            if first < from && from < to {
-                let base = count_base(&self.values[from..to], &predicted[from..to]);
-                predicted[from..].iter_mut().for_each(|value| *value += base);
-            }
+        let places: Vec<usize> = self.anew.iter().map(|index| index.saturating_sub(self.first).min(count)).collect();
+        self.count_on_at(&places, predicted);
+    }
+
+    /// The same at each of these of its values, ascending: as it had been found until then, or, behind what nobody saw, as it is found from then on.
+    pub(super) fn count_on_at(&self, places: &[usize], predicted: &mut [f64]) {
+        let ends = places.iter().skip(1).copied().chain([predicted.len()]);
+        let mut since = 0;
+        for (from, to) in places.iter().copied().zip(ends).filter(|(from, to)| 0 < *from && from < to) {
+            let is_seen = since < from && !self.is_blind(self.first + from - 1);
+            let base = match is_seen {
+                true => as_it_was_or_middle(count_base(self.counts(since..from, predicted).rev())),
+                false => middle(count_base(self.counts(from..to, predicted))),
+            };
+            predicted[from..].iter_mut().for_each(|value| *value += base);
+            since = from;
         }
+    }
+
+    /// Of a count: what was recorded and what is predicted at these of its values.
+    fn counts<'a>(
+        &'a self,
+        range: Range<usize>,
+        predicted: &'a [f64],
+    ) -> impl DoubleEndedIterator<Item = (f64, f64)> + 'a {
+        self.values[range.clone()].iter().copied().zip(predicted[range].iter().copied())
     }
 
     /// Whether an instant of the grid is no evidence.
@@ -219,18 +238,27 @@ impl Track {
     }
 }
 
-/// How far a counter was on when a recording began: it shows whole counts, so that each of them says it within one; the middle of
-/// what the first of them all allow.
-fn count_base(recorded: &[f64], predicted: &[f64]) -> f64 {
+/// Within what a counter is on beside what is predicted: it shows whole counts, so that each of them, recorded and predicted, says it within one; what the
+/// first of them all allow.
+fn count_base(counts: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
     let (mut least, mut most) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (recorded, predicted) in recorded.iter().zip(predicted) {
+    for (recorded, predicted) in counts {
         let (low, high) = (least.max(recorded - predicted), most.min(recorded + 1.0 - predicted));
         if low >= high {
             break;
         }
         (least, most) = (low, high);
     }
+    [least, most]
+}
+
+fn middle([least, most]: [f64; 2]) -> f64 {
     0.5 * (least + most)
+}
+
+/// By how much it is on more than it was thought to be: nothing where that is among what it may be.
+fn as_it_was_or_middle(base: [f64; 2]) -> f64 {
+    if (base[0]..base[1]).contains(&0.0) { 0.0 } else { middle(base) }
 }
 
 #[cfg(test)]
@@ -250,5 +278,21 @@ mod tests {
         let off = |k: usize| predicted[k] - track.values[k];
         assert!((0..40).chain(50..100).all(|k| (-0.2..1.2).contains(&off(k))), "{predicted:?}");
         assert_eq!(predicted[..50], law[..50]);
+    }
+
+    /// A shaft that is five counts ahead from instant 30 on, where it was told something, and another that is not.
+    #[test]
+    fn a_count_goes_on_from_where_it_was_found_when_something_was_told() {
+        let law: Vec<f64> = (0..100).map(|k| 0.7 * f64::from(k) + 0.4).collect();
+        for ahead in [0.0, 5.0] {
+            let turned = |k: usize| if k < 30 { 0.0 } else { ahead };
+            let track = Track::of_values(law.iter().enumerate().map(|(k, law)| (law + turned(k)).floor()).collect());
+            let mut predicted = law.clone();
+            track.count_on_at(&[30, 60], &mut predicted);
+            // Between the two it is where it was; then as it was found between them.
+            assert_eq!(predicted[..60], law[..60]);
+            let off = predicted[60] - law[60];
+            assert!(if ahead == 0.0 { off == 0.0 } else { (off - ahead).abs() < 0.2 }, "{off}");
+        }
     }
 }

@@ -10,6 +10,7 @@
 
 mod apart;
 mod itself;
+mod jitter;
 mod known;
 mod late;
 mod read;
@@ -29,7 +30,7 @@ use super::subject::{Subject, Timing};
 use crate::effect::EFFECTS;
 use crate::plant::{EffectPlace, EffectSpec};
 use known::Known;
-use late::Late;
+use late::{Late, MOST_S};
 use read::{Law, Reading};
 use steps::Steps;
 
@@ -61,8 +62,8 @@ enum Drawn {
     Beside(Law),
     /// What a report adds to the steps of its sensor.
     In(Steps),
-    /// What commands came late by.
-    Late,
+    /// What commands came late by, up to so long, s.
+    Late(f64),
     /// Nothing.
     Noise,
 }
@@ -75,8 +76,8 @@ impl Chance {
 
     /// Another recording of the device as it would be judged without the effect.
     pub fn judged_without(&self, subject: &Subject) -> Option<Subject> {
-        if matches!(self.drawn, Drawn::Late) {
-            return Late::seen(subject, Known::bare(&self.bare.overrides));
+        if let Drawn::Late(most_s) = self.drawn {
+            return Late::seen((subject, most_s), Known::bare(&self.bare.overrides));
         }
         let Drawn::In(steps) = self.drawn else { return None };
         let mut other = subject.clone();
@@ -88,8 +89,8 @@ impl Chance {
 
     /// Another recording of the device without what was drawn there, its effects and its nominal parameters as `specs` and `overrides` say.
     pub fn taken_out(&self, subject: &Subject, specs: &[EffectSpec], overrides: &Overrides) -> Option<Subject> {
-        if matches!(self.drawn, Drawn::Late) {
-            return Some(Late::known(subject, Known { specs, overrides }, &|| false)?.put_off(subject));
+        if let Drawn::Late(most_s) = self.drawn {
+            return Some(Late::known((subject, most_s), Known { specs, overrides }, &|| false)?.put_off(subject));
         }
         let specs = if matches!(self.drawn, Drawn::Beside(_)) { specs } else { &[] };
         let prediction = subject.predict(specs, overrides).ok()?;
@@ -112,7 +113,7 @@ impl Chance {
                         *floor = Floor { timing: floor.timing, ..trained };
                     }
                 }
-                Drawn::ByItself(_) | Drawn::Late | Drawn::Noise => return None,
+                Drawn::ByItself(_) | Drawn::Late(_) | Drawn::Noise => return None,
             }
         }
         Some(other)
@@ -170,9 +171,11 @@ pub fn late_beside(
         return None;
     }
     let beside = |specs: &[EffectSpec]| {
-        let late = Late::of(subject, Known { specs, overrides }, is_stopped)?;
+        let known = Known { specs, overrides };
+        let mut late = Late::of((subject, MOST_S), known, is_stopped)?;
+        let overrides = late.with_nominal(subject, known, &bare.nuisances);
         let sigma = late.sigma()?;
-        jittering(subject, put_off(subject, bare, &late)?, sigma)
+        jittering((subject, MOST_S), put_off(subject, &Bare { overrides, ..bare.clone() }, &late)?, sigma)
     };
     let others: Vec<EffectSpec> = specs.iter().filter(|spec| !delays(spec)).cloned().collect();
     beside(&others).or_else(|| if others.len() < specs.len() { beside(specs) } else { None })
@@ -180,6 +183,12 @@ pub fn late_beside(
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
 const MOST_LEFT: f64 = 0.05;
+/// The same of commands that come late to a device that reports states alone, once nothing else was drawn: one of its switches may be late besides.
+const MOST_LEFT_TO_A_SWITCH: f64 = 0.3;
+/// How many deviations long the longest of some dozen delays are.
+const DEVIATIONS: f64 = 3.0;
+/// How late commands may come with such a switch, s.
+const WITH_A_SWITCH_S: f64 = 0.4;
 
 /// How often what was drawn and the nominal parameters are found anew, each beside the other.
 const ROUNDS: usize = 3;
@@ -202,12 +211,15 @@ pub fn find(
     let laws: &[Law] = if has_gap { &[Law::Away, Law::Lost] } else { &[Law::Away] };
     let by_reading = || laws.iter().find_map(|law| taken_out(subject, bare, before, *law, is_asked));
     let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
+    let late_by = |most_left: f64, most_s: f64| late((subject, bare), (before, most_left, most_s), is_stopped);
     // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
-    let found =
-        found.or_else(|| if has_gap && is_asked(JITTER) { late(subject, bare, before, is_stopped) } else { None });
+    let found = found.or_else(|| if has_gap && is_asked(JITTER) { late_by(MOST_LEFT, MOST_S) } else { None });
+    let may_be_later = has_gap && is_asked(JITTER) && !subject.has_levels();
+    let found = found.or_else(|| if may_be_later { late_by(MOST_LEFT, WITH_A_SWITCH_S) } else { None });
     let by_itself = || laws.iter().find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
     let found = found.or_else(by_reading).or_else(|| if has_gap { by_itself() } else { None });
     let found = found.or_else(|| lost_amid(subject, bare, is_asked));
+    let found = found.or_else(|| if may_be_later { late_by(MOST_LEFT_TO_A_SWITCH, WITH_A_SWITCH_S) } else { None });
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
         if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
     };
@@ -406,10 +418,19 @@ fn lost_amid(subject: &Subject, bare: &Bare, is_asked: &(dyn Fn(&str) -> bool + 
     readings.named((subject, other, bare), Drawn::By(Law::Lost))
 }
 
-/// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time.
-fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> bool + Sync)) -> Option<Chance> {
-    let mut late = Late::of(subject, Known::bare(&bare.overrides), is_stopped)?;
+/// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time, how much of that may be left, and how late
+/// they may come, s.
+fn late(
+    (subject, bare): (&Subject, &Bare),
+    (before, most_left, most_s): (f64, f64, f64),
+    is_stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Chance> {
+    let mut late = Late::of((subject, most_s), Known::bare(&bare.overrides), is_stopped)?;
     let (mut other, mut bare) = put_off(subject, bare, &late)?;
+    if evidence(&other, &bare.prediction) > THRESHOLD {
+        let overrides = late.with_nominal(subject, Known::bare(&bare.overrides), &bare.nuisances);
+        (other, bare) = put_off(subject, &Bare { overrides, ..bare }, &late)?;
+    }
     // What commands that came late had made of the nominal parameters is undone by and by.
     for _ in 0..ROUNDS {
         if evidence(&other, &bare.prediction) <= THRESHOLD {
@@ -418,16 +439,18 @@ fn late(subject: &Subject, bare: &Bare, before: f64, is_stopped: &(dyn Fn() -> b
         late.again(subject, Known::bare(&bare.overrides))?;
         (other, bare) = put_off(subject, &bare, &late)?;
     }
-    if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
+    if evidence(&other, &bare.prediction) > THRESHOLD.max(most_left * before) {
         return None;
     }
-    if let Some(sigma) = late.sigma() {
-        return jittering(subject, (other, bare), sigma);
+    if most_s <= MOST_S
+        && let Some(sigma) = late.sigma()
+    {
+        return jittering((subject, most_s), (other, bare), sigma);
     }
-    // What a switch adds to each is a gap of its own, and looked for as such.
+    // What a switch adds to each is a gap of its own, and looked for as such; without it none comes later than they may by themselves.
     late.leave_to_a_switch()?;
-    let sigma = late.sigma()?;
-    jittering(subject, put_off(subject, &bare, &late)?, sigma)
+    let sigma = late.sigma().filter(|sigma| DEVIATIONS * sigma.value <= MOST_S)?;
+    jittering((subject, most_s), put_off(subject, &bare, &late)?, sigma)
 }
 
 /// The device with its commands when they came, its nominal parameters found anew.
@@ -439,7 +462,7 @@ fn put_off(subject: &Subject, bare: &Bare, late: &Late<'_>) -> Option<(Subject, 
 }
 
 /// A link of `subject` that jitters by `sigma`; beside it the device with its commands when they came.
-fn jittering(subject: &Subject, (other, bare): (Subject, Bare), sigma: Bounds) -> Option<Chance> {
+fn jittering((subject, most_s): (&Subject, f64), (other, bare): (Subject, Bare), sigma: Bounds) -> Option<Chance> {
     let bounds = vec![sigma];
     let candidate = candidate(JITTER, EffectPlace::CommandLink, None, &["sigma"], &bounds)?;
     let misfit = misfit(&subject.score(&subject.predict(&[], &bare.overrides).ok()?));
@@ -449,7 +472,7 @@ fn jittering(subject: &Subject, (other, bare): (Subject, Bare), sigma: Bounds) -
         subject: other,
         bare,
         misfit,
-        drawn: Drawn::Late,
+        drawn: Drawn::Late(most_s),
         signals: Vec::new(),
         beside: None,
     })

@@ -33,7 +33,7 @@ pub struct Range {
 }
 
 impl Range {
-    fn clamp(&self, value: f64) -> f64 {
+    pub fn clamp(&self, value: f64) -> f64 {
         value.clamp(self.least, self.greatest)
     }
 }
