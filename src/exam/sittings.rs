@@ -49,8 +49,8 @@ impl Exam {
         if exam.sittings.is_empty() { Ok(exam) } else { Err(SittingError::Several) }
     }
 
-    /// This and `earlier` sittings as one exam, in the order of their dates: every rate is of all their cases. A case is named by its sitting, too:
-    /// `2/case-001`.
+    /// This and `earlier` sittings as one exam, in the order of their dates, those of one day as they are named and this one last: every rate is of all their
+    /// cases. A case is named by its sitting, too: `2/case-001`.
     ///
     /// # Errors
     /// Two have one seed: they are the same machines.
@@ -60,7 +60,7 @@ impl Exam {
         }
         let mut all = earlier;
         all.push(self);
-        all.sort_by(|one, next| one.date.cmp(&next.date).then(one.seed.cmp(&next.seed)));
+        all.sort_by(|one, next| one.date.cmp(&next.date));
         let twice = |place: &usize| all[..*place].iter().any(|earlier| earlier.seed == all[*place].seed);
         if let Some(place) = (1..all.len()).find(twice) {
             return Err(SittingError::Twice(all[place].seed));
@@ -108,6 +108,10 @@ mod tests {
         Exam::new(seed, date.to_owned(), judged, failed)
     }
 
+    fn sitting_of(seed: u64, date: &str) -> Exam {
+        sitting(seed, date, &[Verdict::NoGap])
+    }
+
     #[test]
     fn the_cases_of_all_sittings_count() {
         let [first, second] = [
@@ -132,6 +136,10 @@ mod tests {
         );
         // Whichever of them is scored last, it is the same exam.
         assert_eq!(first.with(vec![second.clone()]), Ok(one));
+        // Of one day, the one that is named first comes first.
+        let [morning, noon] = [9, 8].map(|seed| sitting_of(seed, "2026-01-30"));
+        let day = sitting_of(7, "2026-01-30").with(vec![morning, noon]).expect("one exam");
+        assert_eq!(day.sittings.iter().map(|sitting| sitting.seed).collect::<Vec<_>>(), [9, 8, 7]);
         // One sitting alone stays what it is.
         assert_eq!(second.clone().with(Vec::new()), Ok(second));
     }
