@@ -113,6 +113,7 @@ fn is_better(anew: &[Finding], before: &[Finding]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect::EffectError;
     use crate::gap::recorded_tests::{LEAK_BEHIND_A_FILTER, of_folder, recording, rig, study};
 
     /// What the filter of all inputs is found to be beside a leak, s, and what is found of each device with it, where there are these effects.
@@ -154,6 +155,30 @@ mod tests {
         assert!(added.iter().any(|each| !each.is_empty()));
         let beside = Study::beside_effects(&plant, &train, &added, None).expect("a model that fits");
         assert!(study.is_told_like(&beside));
+    }
+
+    /// A study of what devices have besides takes a minute and more where they swing.
+    #[test]
+    fn it_is_broken_off_once_the_answer_is_wanted() {
+        let (plant, train) = (rig(), [recording(LEAK_BEHIND_A_FILTER)]);
+        let broken_off = stop::until(&|| true, |stop| {
+            while !stop.is_set() {
+                std::thread::yield_now();
+            }
+            Study::beside_effects(&plant, &train, &[], Some(&stop))
+        });
+        assert!(matches!(broken_off, Err(StudyError::Model(EffectError::Stopped))));
+        // What was broken off changes nothing of what had been found.
+        let study = study(LEAK_BEHIND_A_FILTER);
+        let asked = |is_stopped: &'static (dyn Fn() -> bool + Sync)| Options {
+            is_asked: &|id| ["leak", "on-delay"].contains(&id),
+            is_meant: &|_| true,
+            is_stopped,
+            tell: &|_| {},
+        };
+        let findings = find_all(&plant, &study, &asked(&|| false));
+        let found = beside_effects(&plant, &train, (&study, &findings), &asked(&|| true));
+        assert!(found.expect("a model that fits").is_none());
     }
 
     /// A motor that follows its commands slowly counts as if they were taken up elsewhere in the task's cycle: 1 µs of its phase decides for some of them, and beside
