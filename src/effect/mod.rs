@@ -221,8 +221,6 @@ pub enum EffectError {
     MissingText { id: &'static str, name: &'static str, summary: &'static str },
     #[error("effect {id} does not fit {device}{}: {reason}", component.as_ref().map(|c| format!(".{c}")).unwrap_or_default())]
     Misfit { id: &'static str, device: String, component: Option<String>, reason: String },
-    #[error("it was broken off before it was computed")]
-    Stopped,
 }
 
 /// The effect called `id`.

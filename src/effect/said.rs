@@ -56,7 +56,6 @@ impl EffectError {
                 (place, "expected an effect that fits this device".to_owned())
             }
             EffectError::Device(_) => (&places.element, "expected another effect".to_owned()),
-            EffectError::Stopped => (&places.element, "nothing is wrong with it".to_owned()),
         }
     }
 }

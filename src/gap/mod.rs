@@ -67,7 +67,6 @@ mod shortfall;
 mod silence;
 mod stamps;
 pub mod statistics;
-mod stop;
 mod study;
 mod subject;
 mod surroundings;

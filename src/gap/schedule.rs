@@ -261,7 +261,6 @@ fn of_belt(
         likely: Overrides::none(),
         instance: bay.name.clone(),
         commanded: Vec::new(),
-        stop: belt.stop.clone(),
     }))
 }
 

@@ -18,7 +18,6 @@ use super::prediction::Prediction;
 use super::recording::{Beat, Recording, TaskId};
 use super::score::{Score, SignalScore};
 use super::stamps;
-use super::stop::{self, Stop};
 use super::subject::{Subject, Timing};
 use super::surroundings::{self, Sizes};
 use super::task::{self, Task};
@@ -34,6 +33,13 @@ pub enum StudyError {
     NoRecording,
     #[error("the model cannot be replayed: {0}")]
     Model(#[from] EffectError),
+}
+
+/// Of the effects of a device those beside which what is common to all is found: a belt's own, and not what is found of its bay there; and none of a device
+/// on a spring, which takes minutes to be asked.
+fn told_beside(added: &[EffectSpec]) -> impl Iterator<Item = &EffectSpec> {
+    let is_on_a_spring = added.iter().any(|spec| spec.kind == "compliance");
+    added.iter().filter(move |spec| !is_on_a_spring && !Bay::is_of(&spec.kind))
 }
 
 /// Everything a diagnosis asks.
@@ -71,14 +77,11 @@ pub(super) struct Beforehand<'a> {
     pub told: Told,
     /// What each of the plant's devices has besides what the model says, in their order; empty: nothing.
     pub added: &'a [Vec<EffectSpec>],
-    /// What breaks it off.
-    pub stop: Option<&'a Stop>,
 }
 
 impl Beforehand<'_> {
     /// Nothing is known.
-    pub const NOTHING: Beforehand<'static> =
-        Beforehand { known: Known::Nothing, told: Told::AsItActs, added: &[], stop: None };
+    pub const NOTHING: Beforehand<'static> = Beforehand { known: Known::Nothing, told: Told::AsItActs, added: &[] };
 }
 
 /// What is known of the machine's task.
@@ -99,7 +102,7 @@ impl Study {
     /// # Errors
     /// No recording; a model whose own effects do not fit.
     pub fn new(plant: &Plant, recordings: &[Recording]) -> Result<Study, StudyError> {
-        Ok(Study::beside_effects(plant, recordings, &[], None)?.with_bays(None)?)
+        Ok(Study::beside_effects(plant, recordings, &[])?.with_bays(None)?)
     }
 
     /// The same where devices have these effects, in the plant's order, but for what bays make.
@@ -107,10 +110,9 @@ impl Study {
         plant: &Plant,
         recordings: &[Recording],
         added: &[Vec<EffectSpec>],
-        stop: Option<&Stop>,
     ) -> Result<Study, StudyError> {
         let of = |told| {
-            let beforehand = Beforehand { told, added, stop, ..Beforehand::NOTHING };
+            let beforehand = Beforehand { told, added, ..Beforehand::NOTHING };
             Ok::<_, StudyError>(
                 Study::aligned(plant, recordings, beforehand)?.within_tolerances(recordings, !added.is_empty()),
             )
@@ -127,17 +129,10 @@ impl Study {
     }
 
     /// The same of a machine whose task is as another study of the same recordings has it.
-    pub(super) fn under(
-        plant: &Plant,
-        recordings: &[Recording],
-        found: &Study,
-        stop: &Stop,
-    ) -> Result<Study, StudyError> {
-        let beforehand = Beforehand { known: Known::As(found), stop: Some(stop), ..Beforehand::NOTHING };
+    pub(super) fn under(plant: &Plant, recordings: &[Recording], found: &Study) -> Result<Study, StudyError> {
+        let beforehand = Beforehand { known: Known::As(found), ..Beforehand::NOTHING };
         let study = Study::aligned(plant, recordings, beforehand)?;
-        let mut study = study.with_parameters().widely().with_bays(None)?;
-        study.subjects.iter_mut().for_each(|subject| subject.stop = Stop::default());
-        Ok(study)
+        Ok(study.with_parameters().widely().with_bays(None)?)
     }
 
     /// How many of its devices are in order.
@@ -170,12 +165,8 @@ impl Study {
         let ids = TaskId::all(plant);
         let mut subjects: Vec<Subject> =
             ids.into_par_iter().map(|id| Subject::new(plant, id, recordings, &grids)).collect();
-        if let Some(stop) = beforehand.stop {
-            subjects.iter_mut().for_each(|subject| subject.stop = stop.clone());
-        }
         for (subject, added) in subjects.iter_mut().zip(beforehand.added) {
-            // A belt's own, and not what is found of its bay there.
-            subject.effects.extend(added.iter().filter(|spec| !Bay::is_of(&spec.kind)).cloned());
+            subject.effects.extend(told_beside(added).cloned());
         }
         subjects
             .par_iter_mut()
@@ -241,20 +232,16 @@ impl Study {
         recordings: &[Recording],
         trained: &Study,
         found: &[Vec<EffectSpec>],
-        is_stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Study, StudyError> {
         let cycles = trained.grids.iter().map(|grids| grids.main[Beat::Fast as usize].cycle);
         let known: Vec<(f64, Task)> = cycles.zip(trained.tasks.iter().copied()).collect();
         let beforehand = Beforehand { known: Known::OfItsCycle(&known), ..Beforehand::NOTHING };
         let mut study = Study::aligned(plant, recordings, beforehand)?;
-        if found.iter().any(|specs| !specs.is_empty()) && known.iter().any(|(_, task)| task.every_s > 0.0) {
-            let with = |stop: &Stop| {
-                Study::aligned(plant, recordings, Beforehand { added: found, stop: Some(stop), ..beforehand })
-            };
-            let beside = stop::until(is_stopped, |stop| with(&stop));
-            // What was broken off says nothing.
-            let beside = if is_stopped() { None } else { Some(beside?) };
-            if let Some(beside) = beside.filter(|beside| !study.is_told_like(beside)) {
+        if found.iter().any(|specs| told_beside(specs).next().is_some())
+            && known.iter().any(|(_, task)| task.every_s > 0.0)
+        {
+            let beside = Study::aligned(plant, recordings, Beforehand { added: found, ..beforehand })?;
+            if !study.is_told_like(&beside) {
                 let beforehand = Beforehand { known: Known::AsHeldOut(&beside), ..Beforehand::NOTHING };
                 study = Study::aligned(plant, recordings, beforehand)?;
             }

@@ -21,7 +21,6 @@ use super::samples::Samples;
 use super::schedule::Course;
 use super::score::{Foreseen, Score, SignalScore};
 use super::shifts::{Barrier, likeliest_shifts, relengthed};
-use super::stop::Stop;
 use super::study::Grids;
 use super::surroundings::{self, Sizes};
 use super::task::{Task, Ways};
@@ -152,8 +151,6 @@ pub struct Subject {
     pub(super) instance: String,
     /// The ports that have a signal and take commands.
     pub(super) commanded: Vec<usize>,
-    /// Set where nothing is to be predicted any more.
-    pub(super) stop: Stop,
 }
 
 impl Subject {
@@ -203,7 +200,6 @@ impl Subject {
             likely: Overrides::none(),
             instance: instance.name.clone(),
             commanded: commanded.into_iter().map(|(port, _)| port).collect(),
-            stop: Stop::default(),
         }
     }
 
@@ -211,11 +207,8 @@ impl Subject {
     /// nominal parameters: forward, at the exact times of its commands, in all runs.
     ///
     /// # Errors
-    /// Effects or parameters that do not fit the device, or that are out of their ranges; and once it is to stop.
+    /// Effects or parameters that do not fit the device, or that are out of their ranges.
     pub fn predict(&self, effects: &[EffectSpec], overrides: &Overrides) -> Result<Prediction, EffectError> {
-        if self.stop.is_set() {
-            return Err(EffectError::Stopped);
-        }
         let device = self.device(effects, overrides)?;
         let asks = |spec: &EffectSpec| [SHARES_A_SUPPLY, CARRIES_PARTS].contains(&spec.kind.as_str());
         let asks_neighbours = self.effects.iter().chain(effects).any(asks);

@@ -183,11 +183,9 @@ pub fn late_beside(
 
 /// How much of a device's evidence may be left for what was taken out to have been all of it; else it must have been most of it.
 const MOST_LEFT: f64 = 0.05;
-/// The same of commands that come late to a device that reports states alone, once nothing else was drawn: one of its switches may be late besides.
-const MOST_LEFT_TO_A_SWITCH: f64 = 0.3;
 /// How many deviations long the longest of some dozen delays are.
 const DEVIATIONS: f64 = 3.0;
-/// How late commands may come with such a switch, s.
+/// How late commands may come to a device that reports states alone, with a switch of its that is late besides, s.
 const WITH_A_SWITCH_S: f64 = 0.4;
 
 /// How often what was drawn and the nominal parameters are found anew, each beside the other.
@@ -211,15 +209,14 @@ pub fn find(
     let laws: &[Law] = if has_gap { &[Law::Away, Law::Lost] } else { &[Law::Away] };
     let by_reading = || laws.iter().find_map(|law| taken_out(subject, bare, before, *law, is_asked));
     let found = if is_asked("quantisation") { in_steps(place, study) } else { None };
-    let late_by = |most_left: f64, most_s: f64| late((subject, bare), (before, most_left, most_s), is_stopped);
+    let late_by = |most_s: f64| late((subject, bare), (before, most_s), is_stopped);
     // A command that comes late delays all that follows from it alike, and a report that is lost each by itself.
-    let found = found.or_else(|| if has_gap && is_asked(JITTER) { late_by(MOST_LEFT, MOST_S) } else { None });
+    let found = found.or_else(|| if has_gap && is_asked(JITTER) { late_by(MOST_S) } else { None });
     let may_be_later = has_gap && is_asked(JITTER) && !subject.has_levels();
-    let found = found.or_else(|| if may_be_later { late_by(MOST_LEFT, WITH_A_SWITCH_S) } else { None });
+    let found = found.or_else(|| if may_be_later { late_by(WITH_A_SWITCH_S) } else { None });
     let by_itself = || laws.iter().find_map(|law| taken_out_by_itself(subject, bare, *law, is_asked));
     let found = found.or_else(by_reading).or_else(|| if has_gap { by_itself() } else { None });
     let found = found.or_else(|| lost_amid(subject, bare, is_asked));
-    let found = found.or_else(|| if may_be_later { late_by(MOST_LEFT_TO_A_SWITCH, WITH_A_SWITCH_S) } else { None });
     let scatters = |own: (&Subject, &Bare), has_gap: bool, drawn: &[usize]| {
         if is_asked("noise") { scatter::find(place, study, own, has_gap, drawn) } else { None }
     };
@@ -418,11 +415,10 @@ fn lost_amid(subject: &Subject, bare: &Bare, is_asked: &(dyn Fn(&str) -> bool + 
     readings.named((subject, other, bare), Drawn::By(Law::Lost))
 }
 
-/// The device with its commands when they came, if that explains it. `before`: its evidence with all of them in time, how much of that may be left, and how late
-/// they may come, s.
+/// The device with its commands when they came, up to `most_s` late, if that explains it. `before`: its evidence with all of them in time.
 fn late(
     (subject, bare): (&Subject, &Bare),
-    (before, most_left, most_s): (f64, f64, f64),
+    (before, most_s): (f64, f64),
     is_stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<Chance> {
     let mut late = Late::of((subject, most_s), Known::bare(&bare.overrides), is_stopped)?;
@@ -439,7 +435,7 @@ fn late(
         late.again(subject, Known::bare(&bare.overrides))?;
         (other, bare) = put_off(subject, &bare, &late)?;
     }
-    if evidence(&other, &bare.prediction) > THRESHOLD.max(most_left * before) {
+    if evidence(&other, &bare.prediction) > THRESHOLD.max(MOST_LEFT * before) {
         return None;
     }
     if most_s <= MOST_S

@@ -88,7 +88,7 @@ pub fn diagnose(
         None => (study, findings),
     };
     let found = specs_of(study.subjects.len(), &findings);
-    let mut held_out = Study::beside(plant, held_out, &study, &found, options.is_stopped)?;
+    let mut held_out = Study::beside(plant, held_out, &study, &found)?;
     let too_fast = untrained::leave_out(&mut held_out, &study);
     let measured = Measured::new(plant, &held_out, &findings);
     let mut report = Report::new(verdict::verdict(&study, &findings));

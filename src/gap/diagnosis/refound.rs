@@ -8,7 +8,6 @@
 use std::cmp::Reverse;
 
 use super::{Conclusion, Finding, Options, find_all, specs_of};
-use crate::gap::stop;
 use crate::gap::{Recording, Study, StudyError, THRESHOLD, evidence};
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue, Plant};
 
@@ -36,20 +35,13 @@ pub(super) fn beside_effects(
             if (options.is_stopped)() {
                 break;
             }
-            let again = stop::until(options.is_stopped, |stop| {
-                let beside = Study::beside_effects(plant, train, &added, Some(&stop))?;
-                if study.is_told_like(&beside) {
-                    Ok(None)
-                } else {
-                    Study::under(plant, train, &beside, &stop).map(Some)
-                }
-            });
-            // What was broken off says nothing.
-            if (options.is_stopped)() {
-                break;
+            let beside = Study::beside_effects(plant, train, &added)?;
+            if study.is_told_like(&beside) {
+                continue;
             }
-            let Some(again) = again? else { continue };
+            let again = Study::under(plant, train, &beside)?;
             let anew = find_all(plant, &again, options);
+            // What was broken off says nothing.
             if !(options.is_stopped)() && is_better(&anew, findings) {
                 better = Some((again, anew));
                 break;
@@ -113,7 +105,6 @@ fn is_better(anew: &[Finding], before: &[Finding]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effect::EffectError;
     use crate::gap::recorded_tests::{LEAK_BEHIND_A_FILTER, of_folder, recording, rig, study};
 
     /// What the filter of all inputs is found to be beside a leak, s, and what is found of each device with it, where there are these effects.
@@ -139,46 +130,29 @@ mod tests {
         assert!(found_beside(&["jerk-limit"], &study).is_none());
     }
 
-    /// A belt shows that its bay makes longer parts, and has no such effect.
+    /// A belt shows that its bay makes longer parts, and has no such effect; and what is on a spring is not asked beside it.
     #[test]
-    fn what_a_bay_makes_is_none_of_its_belts_effects() {
+    fn neither_what_a_bay_makes_nor_a_spring_is_put_on_a_device() {
         let (plant, train) = (rig(), [recording(LEAK_BEHIND_A_FILTER)]);
         let study = study(LEAK_BEHIND_A_FILTER);
-        let longer = EffectSpec {
-            place: EffectPlace::Process,
-            kind: "part-length-error".to_owned(),
+        let spec = |place, kind: &str, parameters: &[(&str, f64)]| EffectSpec {
+            place,
+            kind: kind.to_owned(),
             component: None,
-            parameters: [("length".to_owned(), ParameterValue::Number(0.02))].into(),
+            parameters: parameters
+                .iter()
+                .map(|(name, value)| ((*name).to_owned(), ParameterValue::Number(*value)))
+                .collect(),
         };
-        let of = |name: &str| if name == "Belt" { vec![longer.clone()] } else { Vec::new() };
+        let of = |name: &str| match name {
+            "Belt" => vec![spec(EffectPlace::Process, "part-length-error", &[("length", 0.02)])],
+            "Axis" => vec![spec(EffectPlace::Transmission, "compliance", &[("stiffness", 1e6), ("damping", 100.0)])],
+            _ => Vec::new(),
+        };
         let added: Vec<_> = study.subjects.iter().map(|subject| of(&subject.name)).collect();
-        assert!(added.iter().any(|each| !each.is_empty()));
-        let beside = Study::beside_effects(&plant, &train, &added, None).expect("a model that fits");
-        assert!(study.is_told_like(&beside));
-    }
-
-    /// A study of what devices have besides takes a minute and more where they swing.
-    #[test]
-    fn it_is_broken_off_once_the_answer_is_wanted() {
-        let (plant, train) = (rig(), [recording(LEAK_BEHIND_A_FILTER)]);
-        let broken_off = stop::until(&|| true, |stop| {
-            while !stop.is_set() {
-                std::thread::yield_now();
-            }
-            Study::beside_effects(&plant, &train, &[], Some(&stop))
-        });
-        assert!(matches!(broken_off, Err(StudyError::Model(EffectError::Stopped))));
-        // What was broken off changes nothing of what had been found.
-        let study = study(LEAK_BEHIND_A_FILTER);
-        let asked = |is_stopped: &'static (dyn Fn() -> bool + Sync)| Options {
-            is_asked: &|id| ["leak", "on-delay"].contains(&id),
-            is_meant: &|_| true,
-            is_stopped,
-            tell: &|_| {},
-        };
-        let findings = find_all(&plant, &study, &asked(&|| false));
-        let found = beside_effects(&plant, &train, (&study, &findings), &asked(&|| true));
-        assert!(found.expect("a model that fits").is_none());
+        assert_eq!(added.iter().filter(|each| !each.is_empty()).count(), 2);
+        let beside = Study::beside_effects(&plant, &train, &added).expect("a model that fits");
+        assert!(study.is_told_like(&beside) && beside.subjects.iter().all(|subject| subject.effects.is_empty()));
     }
 
     /// A motor that follows its commands slowly counts as if they were taken up elsewhere in the task's cycle: 1 µs of its phase decides for some of them, and beside
@@ -206,7 +180,7 @@ mod tests {
         );
         // Of what is held out, too, more is explained with the phase that is found beside it.
         let left = |found: &[_]| {
-            let held_out = Study::beside(&plant, &train, &again, found, &|| false).expect("a study");
+            let held_out = Study::beside(&plant, &train, &again, found).expect("a study");
             let named = anew.iter().find(|finding| !finding.specs().is_empty()).expect("a lag");
             let subject = &held_out.subjects[named.subject];
             let predicted = subject.predict(&named.specs(), &named.ladder.best.overrides).expect("a prediction");
