@@ -37,7 +37,7 @@ pub enum StudyError {
 
 /// Of the effects of a device those beside which what is common to all is found: a belt's own, and not what is found of its bay there; and none of a device
 /// on a spring, which takes minutes to be asked.
-fn told_beside(added: &[EffectSpec]) -> impl Iterator<Item = &EffectSpec> {
+pub(super) fn told_beside(added: &[EffectSpec]) -> impl Iterator<Item = &EffectSpec> {
     let is_on_a_spring = added.iter().any(|spec| spec.kind == "compliance");
     added.iter().filter(move |spec| !is_on_a_spring && !Bay::is_of(&spec.kind))
 }

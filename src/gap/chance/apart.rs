@@ -92,9 +92,7 @@ impl Apart {
 
     /// What a command moves: of a device that reports levels, those.
     fn moved_by(&self, at: usize) -> impl Iterator<Item = &Moved> + Clone {
-        let all = self.all.iter().filter(move |moved| moved.moves[at]);
-        let has_levels = all.clone().any(|moved| moved.is_seen_all_along);
-        all.filter(move |moved| moved.is_seen_all_along || !has_levels)
+        seen_best(self.all.iter().filter(move |moved| moved.moves[at]))
     }
 
     /// Whether a command says when it came: whether it has all that it moves for itself.
@@ -112,9 +110,7 @@ impl Apart {
 
     /// The ports whose commands move what two predictions differ in.
     pub fn ports_between(&self, subject: &Subject, predictions: [&Prediction; 2]) -> Vec<usize> {
-        let has_levels = self.all.iter().any(|moved| moved.is_seen_all_along);
-        let all = self.all.iter().filter(|moved| moved.is_seen_all_along || !has_levels);
-        let mut ports: Vec<usize> = all
+        let mut ports: Vec<usize> = seen_best(self.all.iter())
             .filter(|moved| !is_one(subject, predictions, &moved.signals))
             .flat_map(|moved| moved.ports.iter().copied())
             .collect();
@@ -152,6 +148,12 @@ impl Apart {
         }
         seen
     }
+}
+
+/// Those of what is moved that are levels, where any is: they are seen all along, and flags only as they change.
+fn seen_best<'a>(all: impl Iterator<Item = &'a Moved> + Clone) -> impl Iterator<Item = &'a Moved> + Clone {
+    let has_levels = all.clone().any(|moved| moved.is_seen_all_along);
+    all.filter(move |moved| moved.is_seen_all_along || !has_levels)
 }
 
 /// The commands that move some signals, those together that are given at once.

@@ -8,6 +8,7 @@
 use std::cmp::Reverse;
 
 use super::{Conclusion, Finding, Options, find_all, specs_of};
+use crate::gap::study::told_beside;
 use crate::gap::{Recording, Study, StudyError, THRESHOLD, evidence};
 use crate::plant::{EffectPlace, EffectSpec, ParameterValue, Plant};
 
@@ -86,7 +87,8 @@ fn is_asked(study: &Study, findings: &[Finding]) -> bool {
         Conclusion::Explained => leaves(finding),
         Conclusion::NoGap | Conclusion::TooShort => false,
     };
-    effects > 0 && !is_drawn && (effects > 1 || findings.iter().any(is_open))
+    let is_told = findings.iter().any(|finding| told_beside(&finding.specs()).next().is_some());
+    is_told && !is_drawn && (effects > 1 || findings.iter().any(is_open))
 }
 
 /// Whether more devices are explained, or as many and of fewer nothing is, or as many by no more effects.
