@@ -17,6 +17,8 @@ pub(super) struct Missed {
     blind: Option<usize>,
     /// The beams that are cut to the end by no part: parts passed them meanwhile.
     passed: [bool; 2],
+    /// The cuts that no part can have made, by their instants, s: of beams at which parts are due.
+    made_by_none: Vec<f64>,
 }
 
 impl Missed {
@@ -29,10 +31,13 @@ impl Missed {
             let stays = seen.iter().any(|cut| cut.beam == beam && cut.stays && is_alone(cut));
             stays && seen.iter().filter(first).any(passes)
         };
+        let is_reliable = is_reliable(geometry, seen, parts, travel);
+        let made_by_none = seen.iter().filter(|cut| is_reliable && is_made_by_none(geometry, seen, cut));
         Missed {
-            is_reliable: is_reliable(geometry, seen, parts, travel),
+            is_reliable,
             blind: blind(geometry, seen),
             passed: [passed(0), passed(1)],
+            made_by_none: made_by_none.map(|cut| cut.from).collect(),
         }
     }
 
@@ -43,7 +48,8 @@ impl Missed {
 
     /// Whether a cut is none of a part: what sees no part stays cut.
     pub fn is_of_no_part(&self, cut: &Seen) -> bool {
-        cut.stays && (self.blind == Some(cut.beam) || cut.length.is_none() && self.passed[cut.beam])
+        let none_passed = self.blind == Some(cut.beam) || cut.length.is_none() && self.passed[cut.beam];
+        cut.stays && (none_passed || self.made_by_none.contains(&cut.from))
     }
 }
 
@@ -56,7 +62,7 @@ fn is_reliable(geometry: &Geometry, seen: &[Seen], parts: usize, travel: &dyn Fn
     });
     let mut beams = vec![0; parts];
     let mut could = vec![false; parts];
-    for cut in seen.iter().filter(|cut| cut.again.is_none()) {
+    for cut in seen.iter().filter(|cut| cut.again.is_none() && !is_made_by_none(geometry, seen, cut)) {
         let part = cut.part.unwrap_or(0);
         beams[part] += 1;
         let until = until[1 - cut.beam];
@@ -73,17 +79,21 @@ fn is_reliable(geometry: &Geometry, seen: &[Seen], parts: usize, travel: &dyn Fn
     both as f64 >= RELIABLE * all as f64 && both >= enough
 }
 
+/// Whether a cut of the second beam of a belt that a bay alone feeds is of no part: it stays cut though the belt goes on, nothing came there from the first,
+/// and no plate reaches over it.
+fn is_made_by_none(geometry: &Geometry, seen: &[Seen], cut: &Seen) -> bool {
+    let is_second = geometry.fed.is_some_and(|(first, _)| first != cut.beam) && cut.way > 0.0;
+    let came = || seen.iter().any(|of| of.beam != cut.beam && of.part == cut.part);
+    cut.stays && is_second && geometry.hands[cut.beam].is_empty() && !came()
+}
+
 /// The second beam of a belt that a bay alone feeds, where no plate reaches over it and it saw none of several parts that the first did: nothing,
 /// or what stays cut though the belt goes on.
 fn blind(geometry: &Geometry, seen: &[Seen]) -> Option<usize> {
     let (first, _) = geometry.fed?;
     let second = 1 - first;
     let came = seen.iter().filter(|cut| cut.beam == first && cut.way > 0.0 && cut.again.is_none());
-    let is_none = |cut: &Seen| {
-        let before = seen.iter().any(|of| of.beam == first && of.part == cut.part);
-        cut.stays && !before
-    };
-    let saw_none = seen.iter().filter(|cut| cut.beam == second).all(is_none);
+    let saw_none = seen.iter().filter(|cut| cut.beam == second).all(|cut| is_made_by_none(geometry, seen, cut));
     (saw_none && geometry.hands[second].is_empty() && came.count() >= ENOUGH).then_some(second)
 }
 
@@ -173,6 +183,24 @@ mod tests {
         assert!(at(&script(&reached, &a, &Track::of_cuts(&[])).0, 1).is_empty());
         // Of two it is not said.
         assert!(at(&script(&fed, &Track::of_cuts(&COMING[..2]), &Track::of_cuts(&[])).0, 1).is_empty());
+    }
+
+    /// Barrier B sees the first part, and is cut for good by none, 1.5 m before the second: that comes there, and the third.
+    #[test]
+    fn what_is_cut_for_good_before_a_part_comes_is_cut_by_none() {
+        let fed = Geometry { fed: Some((0, 0.3)), ..Geometry::of_rig() };
+        let (a, b) = (Track::of_cuts(&COMING), stuck(&[(3.81, 4.41), (6.81, 7.41)]));
+        let (found, origins) = script(&fed, &a, &b);
+        assert_eq!(at(&found, 1).iter().map(|(_, length)| *length).collect::<Vec<_>>(), [0.3; 3]);
+        assert!(found.cuts.iter().all(|cut| cut.taken.is_none()), "{:?}", found.cuts);
+        assert!(matches!(origins[1][2], Origin::Part(part) if found.cuts.iter().all(|cut| cut.part != part)));
+        // Where others put parts on the belt, or take them, it may be one of theirs.
+        let is_there = |geometry: &Geometry| {
+            let (found, _) = script(geometry, &a, &b);
+            at(&found, 1).iter().any(|(_, length)| length.is_infinite())
+        };
+        let reached = Geometry { hands: [vec![], vec![(2.0, 3.0)]], ..fed };
+        assert!(is_there(&reached) && is_there(&Geometry::of_rig()));
     }
 
     /// Barrier B stays cut from the second part on, when the third has passed A and is still on its way: that says nothing of whether parts come from A to B.

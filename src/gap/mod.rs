@@ -35,6 +35,7 @@ pub mod diagnosis;
 mod early;
 mod edges;
 mod effects;
+mod ends;
 mod filter;
 pub mod fit;
 mod floor;

@@ -46,7 +46,7 @@ pub(super) fn assign(
     for (beam, track) in tracks.iter().enumerate() {
         let Some(track) = track else { continue };
         seen.extend(cuts(geometry, beam, track, travel));
-        play_initial(beam, track, &mut script);
+        play_initial(geometry, beam, (track, travel), &mut script);
     }
     seen.sort_by(|a, b| a.from.total_cmp(&b.from));
     find_again(geometry, &mut seen, travel);
@@ -70,10 +70,17 @@ pub(super) fn assign(
     (script, origins)
 }
 
-/// What stood in the beam from the start leaves it as it was recorded.
-fn play_initial(beam: usize, track: &Track, script: &mut Script) {
+/// What stood in the beam from the start leaves it as it was recorded; nothing stood in one that the belt never freed, though it went on by more than any part is long.
+fn play_initial(
+    geometry: &Geometry,
+    beam: usize,
+    (track, travel): (&Track, &dyn Fn(f64) -> f64),
+    script: &mut Script,
+) {
     let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
-    if track.initial != 0.0 {
+    let ends = track.grid.instants.last().copied().unwrap_or(0.0);
+    let is_never_freed = track.edges.is_empty() && geometry.is_further_than_parts(travel(ends) - travel(0.0));
+    if track.initial != 0.0 && !is_never_freed {
         script.told.push(Told { at: 0.0, what, is_on: true });
         if let Some(first) = track.edges.first() {
             script.told.push(Told { at: middle(track, first.index), what, is_on: false });
@@ -411,6 +418,19 @@ mod tests {
     fn of_rig_that(travel: &dyn Fn(f64) -> f64, a: &[(f64, f64)], b: &[(f64, f64)]) -> (Script, [Vec<Origin>; 2]) {
         let lane = Arc::new(Lane { length: 2.0, shares: false, ends: [End::Open, End::Open] });
         assign(&Geometry { lane, ..Geometry::of_rig() }, [Some(&Track::of_cuts(a)), Some(&Track::of_cuts(b))], travel)
+    }
+
+    /// A barrier that is cut from the first look to the last, on a belt that goes on and on, sees nothing; on one that stands a part may stand in it.
+    #[test]
+    fn what_no_part_can_have_left_is_cut_by_none() {
+        let always = Track { initial: 1.0, ..Track::of_cuts(&[]) };
+        let told = |speed: f64| {
+            let lane = Arc::new(Lane { length: 2.0, shares: false, ends: [End::Open, End::Open] });
+            let geometry = Geometry { lane, ..Geometry::of_rig() };
+            let travel = |at: f64| speed * at;
+            assign(&geometry, [Some(&always), Some(&Track::of_cuts(&[]))], &travel).0.told.len()
+        };
+        assert_eq!((told(0.5), told(0.0)), (0, 1));
     }
 
     #[test]

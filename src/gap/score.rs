@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::cost::{self, residual};
+use super::ends;
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
 use super::filter::MOST_FILTER_S;
 use super::prediction::{PredictedEdge, Pulse, Turn};
@@ -58,6 +59,8 @@ pub struct LevelScore {
 /// What is foreseen of a signal that has edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Foreseen<'a> {
+    /// The state that it begins with.
+    pub initial: f64,
     pub edges: &'a [PredictedEdge],
     /// Pulses that no look of the prediction shows.
     pub unseen: &'a [Pulse],
@@ -211,7 +214,8 @@ impl SignalScore {
 
     /// An edge whose changes as they are `foreseen` stand for those of its track; `sigma` is how far a sensor may be off in time, s.
     pub(super) fn edges(place: (usize, usize), track: &Track, foreseen: &Foreseen<'_>, sigma: f64) -> Self {
-        let Foreseen { edges: predicted, unseen, turns, shifts } = *foreseen;
+        let Foreseen { initial, edges: foreseen, unseen, turns, shifts } = *foreseen;
+        let predicted = foreseen;
         let mut pairs = pair(track, predicted, sigma);
         leave_out_pulses(&mut pairs, predicted, track, sigma);
         let with_pulses = pair_with_pulses(&mut pairs, (predicted, unseen), track, sigma);
@@ -225,6 +229,7 @@ impl SignalScore {
         let mut edges: Vec<EdgeScore> = kept.flatten().collect();
         turns::weigh_unrecorded(&mut edges);
         turns::weigh_unforeseen(&mut edges, turns, shifts, track.tolerance);
+        ends::weigh(&mut edges, track, initial, foreseen);
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
         let count = errors.len().max(1) as f64;
@@ -433,7 +438,7 @@ mod tests {
         let score = SignalScore::edges(
             (0, 0),
             &track,
-            &Foreseen { edges: &[], unseen: &unseen, turns: &[], shifts: &[] },
+            &Foreseen { initial: 0.0, edges: &[], unseen: &unseen, turns: &[], shifts: &[] },
             1e-5,
         );
         assert_eq!(score.missing(), 4);

@@ -26,7 +26,7 @@ pub(super) struct Geometry {
 
 impl Geometry {
     /// Whether a belt that goes on so far, m, must have taken out of a beam whatever cut it.
-    fn is_further_than_parts(&self, way: f64) -> bool {
+    pub fn is_further_than_parts(&self, way: f64) -> bool {
         way.abs() > STAYS * self.longest()
     }
 

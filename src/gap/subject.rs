@@ -320,8 +320,8 @@ impl Subject {
                     Predicted::Level(values) => {
                         Some(SignalScore::level((signal, at), track, values, &run.weighed(signal), info.is_count))
                     }
-                    Predicted::Edges { edges, unseen, turns, .. } => {
-                        let foreseen = Foreseen { edges, unseen, turns, shifts: &shifts };
+                    Predicted::Edges { initial, edges, unseen, turns } => {
+                        let foreseen = Foreseen { initial: *initial, edges, unseen, turns, shifts: &shifts };
                         Some(SignalScore::edges((signal, at), track, &foreseen, run.edge_sigmas[signal]))
                     }
                 });
@@ -345,8 +345,8 @@ impl Subject {
                         let samples = Samples::new(track, values, &weighed, info.is_count);
                         samples.each(|sample| residuals.push(residual(sample.cost, sample.difference)));
                     }
-                    (Some(track), Predicted::Edges { edges, unseen, turns, .. }) => {
-                        let foreseen = Foreseen { edges, unseen, turns, shifts: &shifts[at] };
+                    (Some(track), Predicted::Edges { initial, edges, unseen, turns }) => {
+                        let foreseen = Foreseen { initial: *initial, edges, unseen, turns, shifts: &shifts[at] };
                         let score = SignalScore::edges((signal, at), track, &foreseen, run.edge_sigmas[signal]);
                         score.add_residuals(&mut residuals);
                     }

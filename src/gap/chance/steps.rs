@@ -34,7 +34,7 @@ const ABOUT: [f64; 2] = [0.2, 1.6];
 const AS_NEAR: f64 = 0.5;
 /// Multiples of a step are multiples of its half and its third, too: the longest that gathers as well is the step. How many are tried, and
 /// how well is as well.
-const MULTIPLES: u32 = 4;
+const MULTIPLES: u32 = 8;
 const AS_WELL: f64 = 0.8;
 /// How many steps are tried for one that differs by a whole turn of the furthest value.
 const FINELY: f64 = 4.0;
@@ -42,7 +42,7 @@ const FINELY: f64 = 4.0;
 const ALIKE: f64 = 2.0;
 /// How much coarser than its report's own step one must be that is told by what was to be read, and between which multiples of what rounding makes of the
 /// differences it is looked for: noise may add three times as much.
-const COARSER_THAN_FORESEEN: f64 = 1.25;
+const COARSER_THAN_FORESEEN: f64 = 1.05;
 const ABOUT_FORESEEN: [f64; 2] = [0.3, 1.6];
 /// How many times the square of noise and rounding such a step may leave.
 const LEFT: f64 = 2.0;
@@ -92,45 +92,24 @@ impl Steps {
     /// The steps that what is predicted says should be read, as they are read: from the same pairs; `share`: what share of an independent observation each is.
     fn foreseen(moving: &[(f64, f64)], own: f64, (noise, share): (f64, f64)) -> Option<Steps> {
         const FEWEST: usize = 3;
-        const ZOOMS: u32 = 6;
-        const PLACES: i32 = 32;
         let count = moving.len() as f64;
-        let before: f64 = moving.iter().map(|(y, p)| (y - p).powi(2)).sum();
+        let before = off(moving);
         let [least, most] = ABOUT_FORESEEN.map(|share| share * (12.0 * before / count.max(1.0)).sqrt());
-        let least = least.max(COARSER_THAN_FORESEEN * own);
-        let furthest = moving.iter().map(|(_, p)| p.abs()).fold(0.0, f64::max);
-        if least >= most.min(furthest) {
-            return None;
-        }
-        let finely = 1.0 / (FINELY * furthest);
-        let tried = ((1.0 / least - 1.0 / most) / finely).ceil() as usize + 1;
-        let gain = |(place, swings): (usize, &f64)| {
-            let rate = 1.0 / most + place as f64 * finely;
-            let amplitude = 1.0 / (PI * rate);
-            (-2.0 * amplitude * swings - 0.5 * amplitude * amplitude * count, rate)
-        };
-        let swings = swings_at_each(moving, 1.0 / most, finely, tried);
-        let (_, first) = swings.iter().enumerate().map(gain).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let left = |rate: f64| left(moving, rate);
-        let (mut rate, mut apart) = (first, finely / f64::from(PLACES));
-        for _ in 0..ZOOMS {
-            let places = (-PLACES..=PLACES).map(|place| rate + f64::from(place) * apart);
-            let lefts = places.map(|rate| (left(rate), rate));
-            rate = lefts.min_by(|a, b| a.0.total_cmp(&b.0))?.1;
-            apart *= 4.0 / f64::from(PLACES);
-        }
-        let after = left(rate);
-        let is_no_chance = count * share * (before / after).ln() > THRESHOLD + 2.0 * (tried as f64).ln();
+        let sought = Sought::between(moving, least.max(COARSER_THAN_FORESEEN * own), most)?;
+        let rate = sought.best(moving)?;
+        let after = left(moving, rate);
+        let is_no_chance = count * share * (before / after).ln() > THRESHOLD + 2.0 * (sought.tried as f64).ln();
         let is_all = after <= LEFT * count * (noise * noise + own * own / 12.0);
         let mut multiples: Vec<f64> = moving.iter().map(|(_, p)| (p * rate).round()).collect();
         multiples.sort_by(f64::total_cmp);
         multiples.dedup();
-        if !is_no_chance || !is_all || multiples.len() < FEWEST {
+        if !is_no_chance || !is_all || multiples.len() < FEWEST || !sought.is_borne_out(moving) {
             return None;
         }
         let falls = FALLS * after / (count * share);
-        let is_within = |off: &f64| [rate - off, rate + off].iter().any(|rate| left(*rate) <= after + falls);
+        let is_within = |off: &f64| [rate - off, rate + off].iter().any(|rate| left(moving, *rate) <= after + falls);
         // From afar, so that what lies between two jumps is within as well.
+        let finely = sought.finely;
         let offs = std::iter::successors(Some(2.0 * finely), |off| Some(off / 1.2));
         let off = offs.take_while(|off| *off > 1e-6 * finely).find(is_within).unwrap_or(1e-6 * finely);
         let step = 1.0 / rate;
@@ -290,6 +269,69 @@ pub(super) fn find(place: usize, study: &Study) -> Option<(usize, Steps, f64)> {
     (!is_usual).then(|| (signal, steps, misfit()))
 }
 
+/// Which steps are looked for by what is predicted, as rates in steps per unit.
+#[derive(Clone, Copy, Debug)]
+struct Sought {
+    /// That of the longest.
+    least: f64,
+    /// From one to the next.
+    finely: f64,
+    tried: usize,
+}
+
+impl Sought {
+    /// Those between two lengths; `None` where nothing went so far.
+    fn between(moving: &[(f64, f64)], least: f64, most: f64) -> Option<Sought> {
+        let furthest = moving.iter().map(|(_, p)| p.abs()).fold(0.0, f64::max);
+        let finely = 1.0 / (FINELY * furthest);
+        let tried = ((1.0 / least - 1.0 / most) / finely).ceil() as usize + 1;
+        (least < most.min(furthest)).then_some(Sought { least: 1.0 / most, finely, tried })
+    }
+
+    /// The rate of the steps that leave the least of what was recorded.
+    fn best(&self, moving: &[(f64, f64)]) -> Option<f64> {
+        const ZOOMS: u32 = 6;
+        const PLACES: i32 = 32;
+        let gain = |(place, swings): (usize, &f64)| {
+            let rate = self.least + place as f64 * self.finely;
+            let amplitude = 1.0 / (PI * rate);
+            (-2.0 * amplitude * swings - 0.5 * amplitude * amplitude * moving.len() as f64, rate)
+        };
+        let swings = swings_at_each(moving, self.least, self.finely, self.tried);
+        let (_, mut rate) = swings.iter().enumerate().map(gain).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let mut apart = self.finely / f64::from(PLACES);
+        for _ in 0..ZOOMS {
+            let places = (-PLACES..=PLACES).map(|place| rate + f64::from(place) * apart);
+            let lefts = places.map(|rate| (left(moving, rate), rate));
+            rate = lefts.min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+            apart *= 4.0 / f64::from(PLACES);
+        }
+        Some(rate)
+    }
+
+    /// Whether the steps that one half of the motion shows explain the other half, either way (two-fold cross-validation: M. Stone, J. R. Stat. Soc. B 36, 1974):
+    /// one of as many as are tried follows by chance what a law leaves, way for way, of the half that it was found in. Within a way that is alike, so
+    /// that each block tells as much as one reading (Student's ratio of sums to squares: B. Efron, J. Am. Stat. Assoc. 64, 1969).
+    fn is_borne_out(&self, moving: &[(f64, f64)]) -> bool {
+        const BLOCKS: usize = 24;
+        const BEYOND: f64 = 3.5;
+        let long = moving.len().div_ceil(BLOCKS).max(1);
+        let half = |which: usize| moving.chunks(long).skip(which).step_by(2);
+        let gains = |found: usize| {
+            let rate = self.best(&half(found).flatten().copied().collect::<Vec<_>>());
+            let gain = move |block| rate.map_or(0.0, |rate| off(block) - left(block, rate));
+            half(1 - found).map(gain)
+        };
+        let gains: Vec<f64> = gains(0).chain(gains(1)).collect();
+        gains.iter().sum::<f64>() > BEYOND * gains.iter().map(|gain| gain * gain).sum::<f64>().sqrt()
+    }
+}
+
+/// By how much readings are off what is predicted, squared.
+fn off(moving: &[(f64, f64)]) -> f64 {
+    moving.iter().map(|(y, p)| (y - p).powi(2)).sum()
+}
+
 /// By how much readings are off the steps, 1/`rate` each, that are predicted, squared.
 fn left(moving: &[(f64, f64)], rate: f64) -> f64 {
     moving.iter().map(|(y, p)| (y - (p * rate).round() / rate).powi(2)).sum()
@@ -437,10 +479,10 @@ mod tests {
         Steps::foreseen(&moving(&recorded, &predicted, 0.5 * COARSER * own), own, (noise, 1.0))
     }
 
-    /// Steps that noise of nearly half of one hides, and steps of one and a half lattices, of which every other reading is on the next lattice point.
+    /// Steps that noise of nearly half of one hides, and steps of one and a half lattices and of one and a quarter, of which some readings are on the next lattice point.
     #[test]
     fn steps_that_readings_do_not_gather_about_are_found_by_what_should_be_read() {
-        for (step, scatter) in [(7.3e-4, 3.2e-4), (1.61e-4, 0.0)] {
+        for (step, scatter) in [(7.3e-4, 3.2e-4), (1.61e-4, 0.0), (1.23e-4, 0.0)] {
             let pairs = sweep(0.8, |x, k| rounded(rounded(x, step) + scatter * noise(k), 1e-4));
             assert_eq!(found(&pairs, scatter), None);
             let steps = foreseen(&pairs, scatter).unwrap_or_else(|| panic!("no steps of {step}"));
@@ -459,6 +501,24 @@ mod tests {
         for (place, made) in made.into_iter().enumerate() {
             let noise = if place == 0 { 4e-4 } else { 0.0 };
             assert_eq!(foreseen(&sweep(0.8, |x, k| rounded(made(x, k), 1e-4)), noise), None, "{place}");
+        }
+    }
+
+    /// A belt whose speeds beat: of all the steps that are tried there are some that follow what is left, and not that of another hour.
+    #[test]
+    fn what_beats_is_no_foreseen_step() {
+        for beat in (0..40).map(|k| 0.9 + 0.0137 * f64::from(k)) {
+            let mut pairs = Vec::new();
+            let mut speed: f64 = 0.0;
+            for place in 0..40 {
+                let goal = 0.1 + 0.4 * (0.618 * f64::from(place)).rem_euclid(1.0);
+                for _ in 0..30 {
+                    speed += f64::clamp(goal - speed, -0.02, 0.02);
+                    let k = pairs.len();
+                    pairs.push((rounded(speed + 1.5e-3 * (beat * k as f64).sin() + 4e-4 * noise(k), 1e-3), speed));
+                }
+            }
+            assert_eq!(foreseen(&pairs, 1.1e-3), None, "{beat}");
         }
     }
 
