@@ -39,7 +39,12 @@ fn cheapest(track: &Track, recorded: &[Edge], predicted: &[PredictedEdge], sigma
     let width = m + 1;
     let mut best = vec![f64::INFINITY; (n + 1) * width];
     let near = |i: usize, j: usize| i.abs_diff(j) <= band;
-    let paired = |i: usize, j: usize| match recorded[i].to == predicted[j].to {
+    // What comes further off than a stray edge does is another.
+    let is_far = |i: usize, j: usize| {
+        let seen = track.grid.instants.get(recorded[i].index);
+        seen.is_some_and(|seen| (seen - predicted[j].at).abs() > cost::STRAY_SPAN_S)
+    };
+    let paired = |i: usize, j: usize| match recorded[i].to == predicted[j].to && !is_far(i, j) {
         true => interval_cost(track, recorded[i].index, &predicted[j], sigma),
         false => f64::INFINITY,
     };
@@ -136,6 +141,17 @@ mod tests {
         let paired: Vec<_> = pairs.iter().filter_map(|pair| Some((pair.recorded?, pair.predicted?))).collect();
         assert_eq!(paired, [(0, 0), (1, 1), (2, 4), (3, 5)]);
         assert_eq!(pairs.len(), 6);
+    }
+
+    /// A switch that came on 31 s before the model's did: of two edges so far apart each stands alone.
+    #[test]
+    fn edges_half_a_minute_apart_are_two() {
+        let track = track(&[(300, 0.0), (315, 1.0)]);
+        let pairs = pair(&track, &predicted(&[(5.99, 0.0), (37.6, 1.0)]), 3e-4);
+        let alone = [Pair { recorded: Some(1), predicted: None }, Pair { recorded: None, predicted: Some(1) }];
+        assert_eq!(pairs[0], Pair { recorded: Some(0), predicted: Some(0) });
+        assert_eq!(pairs.len(), 3);
+        assert!(alone.iter().all(|edge| pairs.contains(edge)), "{pairs:?}");
     }
 
     #[test]

@@ -8,6 +8,8 @@ use super::seen::{Geometry, RELIABLE, Seen, distance};
 /// In how many of its parts both barriers must have been reached; where one then stayed cut, which no part does, in this many.
 const ENOUGH: usize = 3;
 const ENOUGH_BEFORE_IT_STAYED: usize = 1;
+/// How near to where a part must have passed a beam, beside how long parts are, what that saw may be that part, m.
+const NEAR_M: f64 = 0.25;
 
 /// At which barriers of a belt parts are missed.
 pub(super) struct Missed {
@@ -105,12 +107,36 @@ pub(super) fn passed_unseen(
     first: &Seen,
     travel: &dyn Fn(f64) -> f64,
 ) -> Option<(usize, f64)> {
+    let beam = 1 - first.beam;
+    let stay =
+        seen.iter().find(|cut| cut.beam == beam && cut.stays && cut.way == first.way && cut.from < first.from)?;
+    passed_since(stay.from, geometry, first, travel)
+}
+
+/// The beam at which a bay puts all that comes forwards, and when the part of a cut of the other one must have passed it unseen, s: no plate reaches over either,
+/// and that beam saw nothing near it. `first` and `travel`: as of [`passed_unseen`].
+pub(super) fn came_unseen(
+    geometry: &Geometry,
+    seen: &[Seen],
+    first: &Seen,
+    travel: &dyn Fn(f64) -> f64,
+) -> Option<(usize, f64)> {
+    let (beam, _) = geometry.fed.filter(|(fed, _)| *fed != first.beam && first.way > 0.0)?;
+    if first.is_back || first.stays || geometry.is_put_into(beam) {
+        return None;
+    }
+    let (beam, at) = passed_since(0.0, geometry, first, travel).filter(|(passed, _)| *passed == beam)?;
+    let near = geometry.longest() + NEAR_M;
+    let is_near = |cut: &Seen| cut.beam == beam && (cut.start - travel(at)).abs() < near;
+    (!seen.iter().any(is_near)).then_some((beam, at))
+}
+
+/// When the part of a cut passed the beam before, s, and which that is, where it did so after `since`, s, and no plate reaches over either.
+fn passed_since(since: f64, geometry: &Geometry, first: &Seen, travel: &dyn Fn(f64) -> f64) -> Option<(usize, f64)> {
     const STEP_S: f64 = 0.02;
     const HALVINGS: u32 = 16;
     let beam = 1 - first.beam;
     let between = distance(geometry, beam, first.way).filter(|between| *between > 0.0)?;
-    let stay =
-        seen.iter().find(|cut| cut.beam == beam && cut.stays && cut.way == first.way && cut.from < first.from)?;
     if geometry.hands.iter().any(|spans| !spans.is_empty()) {
         return None;
     }
@@ -119,7 +145,7 @@ pub(super) fn passed_unseen(
     let mut after = first.from;
     while gone(after - STEP_S) > 0.0 {
         after -= STEP_S;
-        if after <= stay.from {
+        if after <= since {
             return None;
         }
     }
@@ -128,7 +154,7 @@ pub(super) fn passed_unseen(
         let middle = 0.5 * (before + after);
         if gone(middle) > 0.0 { after = middle } else { before = middle }
     }
-    (after > stay.from).then_some((beam, after))
+    (after > since).then_some((beam, after))
 }
 
 #[cfg(test)]
@@ -209,6 +235,23 @@ mod tests {
         let later = [(1.01, 1.61), (3.01, 3.61), (4.21, 4.81), (9.01, 9.61)];
         let (found, _) = script(&Geometry::of_rig(), &Track::of_cuts(&later), &stuck(&[(3.81, 4.41), (5.81, 6.41)]));
         assert_eq!(at(&found, 1), [(0, 0.3), (1, 0.3), (2, 0.3), (3, 0.3)]);
+    }
+
+    /// Of five parts that a bay puts before barrier A that sees the first two, and is blind then; B sees all, and the others have been at A as well.
+    #[test]
+    fn what_a_bays_barrier_did_not_see_is_missed_there() {
+        let fed = Geometry { fed: Some((0, 0.3)), ..Geometry::of_rig() };
+        let a = Track::of_cuts(&COMING[..2]);
+        let b = Track::of_cuts(&[0.0, 6.0, 12.0, 18.0, 24.0].map(|later| (3.81 + later, 4.41 + later)));
+        let (found, _) = script(&fed, &a, &b);
+        assert_eq!(at(&found, 0).iter().map(|(_, length)| *length).collect::<Vec<_>>(), [0.3; 5]);
+        assert_eq!(at(&found, 1).len(), 5);
+        let third: Vec<f64> = found.cuts.iter().filter(|cut| cut.part == 2).map(|cut| cut.from).collect();
+        assert!(third.iter().all(|from| (from - 13.01).abs() < 0.02), "{third:?}");
+        // Where others put parts on the belt, or reach over it, they may be theirs.
+        assert_eq!(at(&script(&Geometry::of_rig(), &a, &b).0, 0).len(), 2);
+        let reached = Geometry { hands: [vec![], vec![(2.0, 3.0)]], ..fed };
+        assert_eq!(at(&script(&reached, &a, &b).0, 0).len(), 2);
     }
 
     /// Barrier A is cut for good by nothing, 1.2 m behind the first part; those after it come to B, and have been where A is cut.

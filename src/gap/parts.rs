@@ -6,7 +6,7 @@
 //! inherited from the belt before.
 
 use super::lane::{End, Rider, Step};
-use super::missed::{Missed, passed_unseen};
+use super::missed::{Missed, came_unseen, passed_unseen};
 use super::seen::{GATE_M, Geometry, RELIABLE, Seen, cuts, distance, goes_back, middle, see_little};
 use super::shortfall::{self, Passed};
 use super::track::Track;
@@ -71,12 +71,7 @@ pub(super) fn assign(
 }
 
 /// What stood in the beam from the start leaves it as it was recorded; nothing stood in one that the belt never freed, though it went on by more than any part is long.
-fn play_initial(
-    geometry: &Geometry,
-    beam: usize,
-    (track, travel): (&Track, &dyn Fn(f64) -> f64),
-    script: &mut Script,
-) {
+fn play_initial(geometry: &Geometry, beam: usize, (track, travel): (&Track, &dyn Fn(f64) -> f64), script: &mut Script) {
     let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
     let ends = track.grid.instants.last().copied().unwrap_or(0.0);
     let is_never_freed = track.edges.is_empty() && geometry.is_further_than_parts(travel(ends) - travel(0.0));
@@ -372,7 +367,11 @@ fn script_of(
     // What comes again goes on with the cut that it came with first.
     let Some(part) = cut.part.filter(|_| cut.again.is_none() && !missed.is_of_no_part(&cut)) else { return };
     let first = seen[..at].iter().find(|other| other.part == cut.part).copied().unwrap_or(cut);
-    let before = cut.length.and_then(|_| passed_unseen(geometry, seen, &first, travel));
+    let unseen = || {
+        let passed = passed_unseen(geometry, seen, &first, travel);
+        passed.or_else(|| came_unseen(geometry, seen, &first, travel))
+    };
+    let before = cut.length.and_then(|_| unseen());
     let (beam, from) = before.unwrap_or((first.beam, first.from));
     let ahead = if beam == cut.beam { 0.0 } else { (cut.start - first.start).abs() };
     let ahead = match distance(geometry, beam, first.way) {

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::cost::{self, residual};
-use super::ends;
 use super::edges::{Pair, interval, interval_cost, pair, uncertainty};
+use super::ends;
 use super::filter::MOST_FILTER_S;
 use super::prediction::{PredictedEdge, Pulse, Turn};
 use super::samples::{Sample, Samples};

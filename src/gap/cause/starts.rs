@@ -270,13 +270,17 @@ fn parameter_starts(candidate: &Candidate, parameter: &EffectParameter, clues: &
         };
     }
     if parameter.nominal >= UNLIMITED {
-        // Above what the device does it would do nothing.
+        // Above what the device does it would do nothing. What it drives with between two reports may be more than they show.
+        const PEAKS: [f64; 8] = [1.04, 1.08, 1.14, 1.22, 1.35, 1.5, 1.75, 2.0];
+        let is_of_force = parameter.quantities.iter().any(|of| [Quantity::Force, Quantity::Torque].contains(of));
+        let peaks: &[f64] = if is_of_force { &PEAKS } else { &[] };
         let unit = if parameter.quantities.is_empty() { clues.scales.acceleration / STEEPEST_S } else { unit };
         let shares: &[f64] = match parameter.quantities.is_empty() {
             true => &[0.3, 0.1, 0.01, 1e-3, 1e-4, 3e-5],
             false => &[0.999, 0.99, 0.9, 0.7, 0.4, 0.2, 0.1, 0.03, 0.01],
         };
-        return (range(least, 1.02 * unit, 0.05 * unit), times(shares, unit));
+        let most = peaks.last().map_or(1.02, |peak| *peak);
+        return (range(least, most * unit, 0.05 * unit), times(&[peaks, shares].concat(), unit));
     }
     match (candidate.effect.id, parameter.name) {
         ("second-order-lag", "natural_frequency") => (range(least, 1e5, 10.0), vec![10.0, 50.0, 300.0, 2000.0, 2e4]),
@@ -451,7 +455,9 @@ mod tests {
     use super::*;
     use crate::gap::Overrides;
     use crate::gap::cause::library::candidates;
-    use crate::gap::recorded_tests::{BLIND_SWITCH, LAGGING_ROBOT, SLIPPING_PARTS, SLOW_PUSHER, TOLD_LATE, study};
+    use crate::gap::recorded_tests::{
+        BLIND_SWITCH, LAGGING_ROBOT, RUBBING_AXIS, SLIPPING_PARTS, SLOW_PUSHER, TOLD_LATE, study,
+    };
 
     /// A switch that is told late enough never comes, and one that is told for long enough never goes; this one went.
     #[test]
@@ -517,6 +523,20 @@ mod tests {
         let starts = || found.starts.iter().map(|start| start[0]);
         assert!(found.free[0].range.greatest > limit, "{:?}", found.free[0].range);
         assert!(starts().any(|start| start > limit) && starts().any(|start| start < limit), "{:?}", found.starts);
+    }
+
+    /// A servo's force goes beyond what its reports show, between two of them: a limit there shows as well.
+    #[test]
+    fn a_force_limit_may_be_above_what_any_report_shows() {
+        let study = study(RUBBING_AXIS);
+        let axis = study.subject("Axis").expect("it moves");
+        let nominal = axis.predict(&[], &Overrides::none()).expect("a prediction");
+        let score = axis.score(&nominal);
+        let shown = Scales::of(axis, &nominal, None).effort;
+        let found = candidates(axis, &nominal, &score, &|id| id == "force-limit").swap_remove(0);
+        let above = |least: f64| found.starts.iter().filter(|start| start[0] > least * shown).count();
+        assert!(found.free[0].range.greatest > 1.5 * shown, "{:?} {shown}", found.free[0].range);
+        assert!(above(1.0) > 3 && above(1.5) > 0 && above(0.0) > above(1.0), "{:?} {shown}", found.starts);
     }
 
     /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.
