@@ -21,17 +21,17 @@ pub(super) fn weigh(edges: &mut Vec<EdgeScore>, track: &Track, initial: f64, pre
     let ends_apart =
         ended != predicted.last().map_or(initial, |edge| edge.to) && !track.is_blind(instants.len().saturating_sub(1));
     if begins_apart && track.edges.is_empty() && predicted.is_empty() && ends - starts > APART_S {
-        let cost = 2.0 * cost::unmatched();
-        let at = Some(starts);
-        edges.push(EdgeScore {
-            to: initial,
+        // The one that should have come before the recording began, and the one that should come before it ends.
+        let never = |at: f64, to: f64| EdgeScore {
+            to,
             recorded: None,
-            predicted: at,
+            predicted: Some(at),
             error: 0.0,
             uncertainty: track.grid.spread,
-            cost,
-            residual: residual(cost, -1.0),
-        });
+            cost: cost::unmatched(),
+            residual: residual(cost::unmatched(), -1.0),
+        };
+        edges.extend([never(starts, initial), never(ends, track.initial)]);
         return;
     }
     let is_alone = |edge: &&mut EdgeScore| {
