@@ -8,7 +8,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use kinetwin::gap::diagnosis::{Diagnosis, Options, diagnose, kept_back};
-use kinetwin::gap::report::{Cause, NotTestable, Report, Verdict};
+use kinetwin::gap::report::{Cause, Report, Verdict};
 use kinetwin::gap::{Recording, Study, locate};
 use kinetwin::plant::Plant;
 use kinetwin::run::model;
@@ -171,28 +171,6 @@ fn without_held_out_recordings_spans_are_kept_back() {
     for at in [0.01, 0.3, 0.5, 0.8].map(|share| share * ends) {
         assert!(split.train[0].is_blind(at) != split.held_out[0].is_blind(at), "{at}");
     }
-}
-
-/// A pusher that is in order in the training, and whose switch goes off late in what is held out: no verdict rests on that, and the report says it.
-#[test]
-fn a_gap_that_held_out_recordings_alone_show_is_told() {
-    let plant = model::load("models/rig-toleranced").expect("the rig");
-    let train = vec![read(&plant, "tests/data/pusher-in-order.cps.jsonl.zst")];
-    let late = vec![read(&plant, "tests/data/pusher-whose-switch-goes-off-late.cps.jsonl.zst")];
-    let told = |held_out: &[Recording]| {
-        let options = Options {
-            is_asked: &|id| DOZEN.contains(&id),
-            is_meant: &|name| name == "Pusher",
-            is_stopped: &|| false,
-            tell: &|_| {},
-        };
-        let report = diagnose(&plant, &train, held_out, &options).expect("a diagnosis").report;
-        assert_eq!(report.verdict, Verdict::NoGap, "{}", report.to_json());
-        let is_told = |entry: &&NotTestable| entry.reason.starts_with("the held-out recordings show a gap of it");
-        report.not_testable.iter().filter(is_told).filter_map(|entry| entry.device.clone()).collect::<Vec<_>>()
-    };
-    assert_eq!(told(&late), ["Pusher"]);
-    assert!(told(&train).is_empty());
 }
 
 /// What is surely wrong with the plant of a folder by its recording: one effect, of the dozen or one of `further`.

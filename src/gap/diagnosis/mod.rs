@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use super::cause::{BLOCK_S, Tell};
 use super::page::{Added, Evidence, gather};
 use super::report::{FoundClock, NotTestable, Report, SignalNames};
-use super::{ClockOffset, Recording, Study, StudyError, Subject, THRESHOLD, evidence};
+use super::{ClockOffset, Recording, Study, StudyError, Subject, evidence};
 use crate::effect::EffectError;
 use crate::plant::{EffectSpec, Plant};
 use held_out::Measured;
@@ -104,7 +104,6 @@ pub fn diagnose(
     report.not_testable.extend(too_short(&study, &findings));
     report.not_testable.extend(still(&study));
     report.not_testable.extend(states::untrained(&study, &held_out));
-    report.not_testable.extend(only_held_out(&held_out, &findings));
     Ok(Diagnosis { report, findings, held_out })
 }
 
@@ -221,25 +220,6 @@ fn too_short(study: &Study, findings: &[Finding]) -> Vec<NotTestable> {
         }
     };
     short.map(entry).collect()
-}
-
-/// Devices in which the training shows no gap and what is held out does, such as one that lost its only report there: no verdict rests on that, and a reader has to know.
-fn only_held_out(held_out: &Study, findings: &[Finding]) -> Vec<NotTestable> {
-    let in_order = findings.iter().filter(|finding| finding.conclusion == Conclusion::NoGap);
-    let entry = |finding: &Finding| {
-        let subject = &held_out.subjects[finding.subject];
-        let found = evidence(subject, &held_out.bare[finding.subject].prediction);
-        (found > THRESHOLD).then(|| NotTestable {
-            device: Some(subject.name.clone()),
-            reason: format!(
-                "the held-out recordings show a gap of it, evidence {found:.1} where a chance keeps below {THRESHOLD:.1}, and the \
-                 training shows none"
-            ),
-            needs: "those recordings in the training, and others held out".to_owned(),
-            ..NotTestable::default()
-        })
-    };
-    in_order.filter_map(entry).collect()
 }
 
 /// Devices that never move in the training: nothing can be said of them.
