@@ -4,16 +4,16 @@
 //! its start, has only one of them in it, and one that is wrong all along has none. They say as much.
 
 use super::cost::{self, residual};
-use super::prediction::PredictedEdge;
-use super::score::EdgeScore;
+use super::score::{EdgeScore, Foreseen};
 use super::track::Track;
 
 /// For how long, s: an edge that comes late, or before anything was recorded, is no state that stays wrong.
 const APART_S: f64 = 1.0;
 
-/// Weighs the edges of a state beside how it is predicted to begin and to change: the edge alone from which on it is wrong to the end, or until which it was from the
+/// Weighs the edges of a state beside how it is foreseen to begin and to change: the edge alone from which on it is wrong to the end, or until which it was from the
 /// start, as two; and one that is wrong all along as the two that would have made it so.
-pub(super) fn weigh(edges: &mut Vec<EdgeScore>, track: &Track, initial: f64, predicted: &[PredictedEdge]) {
+pub(super) fn weigh(edges: &mut Vec<EdgeScore>, track: &Track, foreseen: &Foreseen<'_>) {
+    let Foreseen { initial, edges: predicted, .. } = *foreseen;
     let instants = &track.grid.instants;
     let Some((starts, ends)) = instants.get(track.first).copied().zip(instants.last().copied()) else { return };
     let begins_apart = track.initial != initial && !track.is_blind(track.first);
@@ -34,9 +34,8 @@ pub(super) fn weigh(edges: &mut Vec<EdgeScore>, track: &Track, initial: f64, pre
         edges.extend([never(starts, initial), never(ends, track.initial)]);
         return;
     }
-    let is_alone = |edge: &&mut EdgeScore| {
-        (edge.recorded.is_none() || edge.predicted.is_none()) && edge.cost >= 0.99 * cost::unmatched()
-    };
+    let is_alone =
+        |edge: &&mut EdgeScore| (edge.recorded.is_none() || edge.predicted.is_none()) && edge.cost >= cost::unmatched();
     if begins_apart && let Some(first) = edges.iter_mut().find(is_alone).filter(|edge| edge.at() - starts > APART_S) {
         as_two(first);
     }

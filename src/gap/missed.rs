@@ -19,27 +19,26 @@ pub(super) struct Missed {
     blind: Option<usize>,
     /// The beams that are cut to the end by no part: parts passed them meanwhile.
     passed: [bool; 2],
-    /// The cuts that no part can have made, by their instants, s: of beams at which parts are due.
-    made_by_none: Vec<f64>,
+    /// The beam at which parts are due and that is cut to the end by what never came there from the other.
+    made_by_none: Option<usize>,
 }
 
 impl Missed {
     /// Of what the barriers of a belt saw, which were so many parts; `travel` gives the belt's way at an instant, m.
     pub fn new(geometry: &Geometry, seen: &[Seen], parts: usize, travel: &dyn Fn(f64) -> f64) -> Missed {
-        let is_alone = |cut: &Seen| seen.iter().all(|of| of.beam == cut.beam || of.part != cut.part);
         let passed = |beam: usize| {
-            let first = |cut: &&Seen| cut.beam != beam && cut.length.is_some() && is_alone(cut);
+            let first = |cut: &&Seen| cut.beam != beam && cut.length.is_some() && cut.is_alone(seen);
             let passes = |cut: &Seen| passed_unseen(geometry, seen, cut, travel).is_some();
-            let stays = seen.iter().any(|cut| cut.beam == beam && cut.stays && is_alone(cut));
+            let stays = seen.iter().any(|cut| cut.beam == beam && cut.stays && cut.is_alone(seen));
             stays && seen.iter().filter(first).any(passes)
         };
         let is_reliable = is_reliable(geometry, seen, parts, travel);
-        let made_by_none = seen.iter().filter(|cut| is_reliable && is_made_by_none(geometry, seen, cut));
+        let made_by_none = seen.iter().find(|cut| is_reliable && is_made_by_none(geometry, seen, cut));
         Missed {
             is_reliable,
             blind: blind(geometry, seen),
             passed: [passed(0), passed(1)],
-            made_by_none: made_by_none.map(|cut| cut.from).collect(),
+            made_by_none: made_by_none.map(|cut| cut.beam),
         }
     }
 
@@ -51,7 +50,7 @@ impl Missed {
     /// Whether a cut is none of a part: what sees no part stays cut.
     pub fn is_of_no_part(&self, cut: &Seen) -> bool {
         let none_passed = self.blind == Some(cut.beam) || cut.length.is_none() && self.passed[cut.beam];
-        cut.stays && (none_passed || self.made_by_none.contains(&cut.from))
+        cut.stays && (none_passed || self.made_by_none == Some(cut.beam))
     }
 }
 
@@ -85,8 +84,7 @@ fn is_reliable(geometry: &Geometry, seen: &[Seen], parts: usize, travel: &dyn Fn
 /// and no plate reaches over it.
 fn is_made_by_none(geometry: &Geometry, seen: &[Seen], cut: &Seen) -> bool {
     let is_second = geometry.fed.is_some_and(|(first, _)| first != cut.beam) && cut.way > 0.0;
-    let came = || seen.iter().any(|of| of.beam != cut.beam && of.part == cut.part);
-    cut.stays && is_second && geometry.hands[cut.beam].is_empty() && !came()
+    cut.stays && is_second && geometry.hands[cut.beam].is_empty() && cut.is_alone(seen)
 }
 
 /// The second beam of a belt that a bay alone feeds, where no plate reaches over it and it saw none of several parts that the first did: nothing,
@@ -99,9 +97,18 @@ fn blind(geometry: &Geometry, seen: &[Seen]) -> Option<usize> {
     (saw_none && geometry.hands[second].is_empty() && came.count() >= ENOUGH).then_some(second)
 }
 
-/// The beam that the part of a cut, the first that was seen of it, must have passed unseen, and when, s: that stayed cut then, the belt leads from it
-/// to where the part was seen, and no plate reaches over either. `travel` gives the belt's way at an instant, m.
-pub(super) fn passed_unseen(
+/// The beam that the part of a cut, the first that was seen of it, must have passed unseen, and when, s. `travel` gives the belt's way at an instant, m.
+pub(super) fn unseen_before(
+    geometry: &Geometry,
+    seen: &[Seen],
+    first: &Seen,
+    travel: &dyn Fn(f64) -> f64,
+) -> Option<(usize, f64)> {
+    passed_unseen(geometry, seen, first, travel).or_else(|| came_unseen(geometry, seen, first, travel))
+}
+
+/// The same of a beam that stayed cut then, where the belt leads from it to where the part was seen, and no plate reaches over either.
+fn passed_unseen(
     geometry: &Geometry,
     seen: &[Seen],
     first: &Seen,
@@ -113,14 +120,8 @@ pub(super) fn passed_unseen(
     passed_since(stay.from, geometry, first, travel)
 }
 
-/// The beam at which a bay puts all that comes forwards, and when the part of a cut of the other one must have passed it unseen, s: no plate reaches over either,
-/// and that beam saw nothing near it. `first` and `travel`: as of [`passed_unseen`].
-pub(super) fn came_unseen(
-    geometry: &Geometry,
-    seen: &[Seen],
-    first: &Seen,
-    travel: &dyn Fn(f64) -> f64,
-) -> Option<(usize, f64)> {
+/// The same of the beam at which a bay puts all that comes forwards, where no plate reaches over either and that beam saw nothing near it.
+fn came_unseen(geometry: &Geometry, seen: &[Seen], first: &Seen, travel: &dyn Fn(f64) -> f64) -> Option<(usize, f64)> {
     let (beam, _) = geometry.fed.filter(|(fed, _)| *fed != first.beam && first.way > 0.0)?;
     if first.is_back || first.stays || geometry.is_put_into(beam) {
         return None;

@@ -6,8 +6,10 @@
 //! inherited from the belt before.
 
 use super::lane::{End, Rider, Step};
-use super::missed::{Missed, came_unseen, passed_unseen};
-use super::seen::{GATE_M, Geometry, RELIABLE, Seen, cuts, distance, goes_back, middle, see_little};
+use super::missed::{Missed, unseen_before};
+use super::seen::{
+    GATE_M, Geometry, RELIABLE, Seen, cuts, distance, goes_back, is_cut_for_too_long, middle, see_little,
+};
 use super::shortfall::{self, Passed};
 use super::track::Track;
 use super::world::{Cut, PAST_M, Script, Surrounding, Told};
@@ -73,8 +75,7 @@ pub(super) fn assign(
 /// What stood in the beam from the start leaves it as it was recorded; nothing stood in one that the belt never freed, though it went on by more than any part is long.
 fn play_initial(geometry: &Geometry, beam: usize, (track, travel): (&Track, &dyn Fn(f64) -> f64), script: &mut Script) {
     let what = if beam == 0 { Surrounding::BarrierA } else { Surrounding::BarrierB };
-    let ends = track.grid.instants.last().copied().unwrap_or(0.0);
-    let is_never_freed = track.edges.is_empty() && geometry.is_further_than_parts(travel(ends) - travel(0.0));
+    let is_never_freed = track.edges.is_empty() && is_cut_for_too_long(geometry, track, travel);
     if track.initial != 0.0 && !is_never_freed {
         script.told.push(Told { at: 0.0, what, is_on: true });
         if let Some(first) = track.edges.first() {
@@ -367,11 +368,7 @@ fn script_of(
     // What comes again goes on with the cut that it came with first.
     let Some(part) = cut.part.filter(|_| cut.again.is_none() && !missed.is_of_no_part(&cut)) else { return };
     let first = seen[..at].iter().find(|other| other.part == cut.part).copied().unwrap_or(cut);
-    let unseen = || {
-        let passed = passed_unseen(geometry, seen, &first, travel);
-        passed.or_else(|| came_unseen(geometry, seen, &first, travel))
-    };
-    let before = cut.length.and_then(|_| unseen());
+    let before = cut.length.and_then(|_| unseen_before(geometry, seen, &first, travel));
     let (beam, from) = before.unwrap_or((first.beam, first.from));
     let ahead = if beam == cut.beam { 0.0 } else { (cut.start - first.start).abs() };
     let ahead = match distance(geometry, beam, first.way) {
@@ -391,7 +388,7 @@ fn script_of(
         script.back.push(part);
     }
     // One that should have come to the other beam and did not is missed there.
-    let is_alone = !seen.iter().any(|of| of.beam != cut.beam && of.part == cut.part);
+    let is_alone = cut.is_alone(seen);
     if let (true, true, Some(length), Some(between)) =
         (is_alone, missed.are_due_at(1 - cut.beam), cut.length, distance(geometry, cut.beam, cut.way))
         && between > 0.0

@@ -214,8 +214,7 @@ impl SignalScore {
 
     /// An edge whose changes as they are `foreseen` stand for those of its track; `sigma` is how far a sensor may be off in time, s.
     pub(super) fn edges(place: (usize, usize), track: &Track, foreseen: &Foreseen<'_>, sigma: f64) -> Self {
-        let Foreseen { initial, edges: foreseen, unseen, turns, shifts } = *foreseen;
-        let predicted = foreseen;
+        let Foreseen { edges: predicted, unseen, turns, shifts, .. } = *foreseen;
         let mut pairs = pair(track, predicted, sigma);
         leave_out_pulses(&mut pairs, predicted, track, sigma);
         let with_pulses = pair_with_pulses(&mut pairs, (predicted, unseen), track, sigma);
@@ -229,7 +228,7 @@ impl SignalScore {
         let mut edges: Vec<EdgeScore> = kept.flatten().collect();
         turns::weigh_unrecorded(&mut edges);
         turns::weigh_unforeseen(&mut edges, turns, shifts, track.tolerance);
-        ends::weigh(&mut edges, track, initial, foreseen);
+        ends::weigh(&mut edges, track, foreseen);
         let errors: Vec<f64> =
             edges.iter().filter(|e| e.recorded.is_some() && e.predicted.is_some()).map(|e| e.error).collect();
         let count = errors.len().max(1) as f64;

@@ -26,7 +26,7 @@ pub(super) struct Geometry {
 
 impl Geometry {
     /// Whether a belt that goes on so far, m, must have taken out of a beam whatever cut it.
-    pub fn is_further_than_parts(&self, way: f64) -> bool {
+    fn is_further_than_parts(&self, way: f64) -> bool {
         way.abs() > STAYS * self.longest()
     }
 
@@ -91,6 +91,11 @@ impl Seen {
     /// How far the belt went on, the way that the part came, while it cut the beam, m; where it still does so nothing is known of that.
     fn gone(&self, travel: &dyn Fn(f64) -> f64) -> Option<f64> {
         self.fall.map(|_| self.way * (travel(self.to) - self.start))
+    }
+
+    /// Whether the other beam saw nothing of its part.
+    pub fn is_alone(&self, seen: &[Seen]) -> bool {
+        seen.iter().all(|of| of.beam == self.beam || of.part != self.part)
     }
 
     /// Whether it left the beam after less than any part is long, and the belt runs on.

@@ -453,23 +453,28 @@ fn late(clues: &Clues<'_>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gap::Overrides;
     use crate::gap::cause::library::candidates;
     use crate::gap::recorded_tests::{
         BLIND_SWITCH, LAGGING_ROBOT, RUBBING_AXIS, SLIPPING_PARTS, SLOW_PUSHER, TOLD_LATE, study,
     };
+    use crate::gap::{Overrides, Prediction, Score, Subject};
+
+    /// A device of a recording, what is predicted of it, and how that does.
+    fn moving(recording: &str, device: &str) -> (Subject, Prediction, Score) {
+        let subject = study(recording).subject(device).expect("it moves").clone();
+        let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
+        let score = subject.score(&nominal);
+        (subject, nominal, score)
+    }
 
     /// A switch that is told late enough never comes, and one that is told for long enough never goes; this one went.
     #[test]
     fn a_flag_that_never_comes_may_be_late() {
-        let study = study(BLIND_SWITCH);
-        let pusher = study.subject("Pusher").expect("it moves");
-        let nominal = pusher.predict(&[], &Overrides::none()).expect("a prediction");
-        let score = pusher.score(&nominal);
+        let (pusher, nominal, score) = moving(BLIND_SWITCH, "Pusher");
         let longest = |component, is_up| {
-            let scales = Scales::of(pusher, &nominal, None);
+            let scales = Scales::of(&pusher, &nominal, None);
             longest_stay(
-                &Clues { subject: pusher, nominal: &nominal, score: &score, scales, component: Some(component) },
+                &Clues { subject: &pusher, nominal: &nominal, score: &score, scales, component: Some(component) },
                 is_up,
             )
         };
@@ -478,7 +483,7 @@ mod tests {
         // It may as well be filtered for longer than it stands.
         let stay = longest("limitRetracted", true).expect("a stay");
         let begins_at = |id: &str, place: EffectPlace, time: f64| {
-            let all = candidates(pusher, &nominal, &score, &|known| known == id);
+            let all = candidates(&pusher, &nominal, &score, &|known| known == id);
             let is_meant = |of: &&Candidate| of.component.as_deref() == Some("limitRetracted") && of.place == place;
             let found = all.iter().find(is_meant).expect("a candidate");
             found.starts.iter().any(|start| (start[0] - time).abs() < 1e-9)
@@ -494,13 +499,11 @@ mod tests {
     #[test]
     fn a_dead_band_of_a_belt_is_one_of_the_speeds_it_is_asked_for() {
         let starts = |recording: &str, device: &str| {
-            let study = study(recording);
-            let subject = study.subject(device).expect("it moves");
-            let nominal = subject.predict(&[], &Overrides::none()).expect("a prediction");
-            let score = subject.score(&nominal);
-            let scales = Scales::of(subject, &nominal, None);
-            let asked = speeds_asked(&Clues { subject, nominal: &nominal, score: &score, scales, component: None });
-            let found = candidates(subject, &nominal, &score, &|id| id == "dead-band").swap_remove(0);
+            let (subject, nominal, score) = moving(recording, device);
+            let scales = Scales::of(&subject, &nominal, None);
+            let asked =
+                speeds_asked(&Clues { subject: &subject, nominal: &nominal, score: &score, scales, component: None });
+            let found = candidates(&subject, &nominal, &score, &|id| id == "dead-band").swap_remove(0);
             (asked, found.free[0].range.greatest, found.starts.iter().map(|start| start[0]).collect::<Vec<_>>())
         };
         let (asked, greatest, widths) = starts(SLIPPING_PARTS, "Belt");
@@ -514,11 +517,8 @@ mod tests {
     /// A drive that takes 46 µs to reach its acceleration lags by half of that, which a counter shows: it is looked for from both sides.
     #[test]
     fn a_jerk_limit_may_be_steep() {
-        let study = study(TOLD_LATE);
-        let motor = study.subject("Motor").expect("it moves");
-        let nominal = motor.predict(&[], &Overrides::none()).expect("a prediction");
-        let score = motor.score(&nominal);
-        let found = candidates(motor, &nominal, &score, &|id| id == "jerk-limit").swap_remove(0);
+        let (motor, nominal, score) = moving(TOLD_LATE, "Motor");
+        let found = candidates(&motor, &nominal, &score, &|id| id == "jerk-limit").swap_remove(0);
         let limit = 20.0 / 46e-6;
         let starts = || found.starts.iter().map(|start| start[0]);
         assert!(found.free[0].range.greatest > limit, "{:?}", found.free[0].range);
@@ -528,12 +528,9 @@ mod tests {
     /// A servo's force goes beyond what its reports show, between two of them: a limit there shows as well.
     #[test]
     fn a_force_limit_may_be_above_what_any_report_shows() {
-        let study = study(RUBBING_AXIS);
-        let axis = study.subject("Axis").expect("it moves");
-        let nominal = axis.predict(&[], &Overrides::none()).expect("a prediction");
-        let score = axis.score(&nominal);
-        let shown = Scales::of(axis, &nominal, None).effort;
-        let found = candidates(axis, &nominal, &score, &|id| id == "force-limit").swap_remove(0);
+        let (axis, nominal, score) = moving(RUBBING_AXIS, "Axis");
+        let shown = Scales::of(&axis, &nominal, None).effort;
+        let found = candidates(&axis, &nominal, &score, &|id| id == "force-limit").swap_remove(0);
         let above = |least: f64| found.starts.iter().filter(|start| start[0] > least * shown).count();
         assert!(found.free[0].range.greatest > 1.5 * shown, "{:?} {shown}", found.free[0].range);
         assert!(above(1.0) > 3 && above(1.5) > 0 && above(0.0) > above(1.0), "{:?} {shown}", found.starts);
@@ -542,12 +539,9 @@ mod tests {
     /// Each takes as much longer as the strokes of a pusher that is a per cent slow are late, whatever its ratio.
     #[test]
     fn cushions_are_tried_that_make_strokes_as_late_as_they_are() {
-        let study = study(SLOW_PUSHER);
-        let pusher = study.subject("Pusher").expect("it moves");
-        let nominal = pusher.predict(&[], &Overrides::none()).expect("a prediction");
-        let score = pusher.score(&nominal);
-        let scales = Scales::of(pusher, &nominal, None);
-        let clues = Clues { subject: pusher, nominal: &nominal, score: &score, scales, component: None };
+        let (pusher, nominal, score) = moving(SLOW_PUSHER, "Pusher");
+        let scales = Scales::of(&pusher, &nominal, None);
+        let clues = Clues { subject: &pusher, nominal: &nominal, score: &score, scales, component: None };
         let late = CUSHION_LATE.map(|share| quantile(&late(&clues), share));
         let cushions = cushions(&clues);
         assert_eq!(cushions.len(), CUSHION_LATE.len() * CUSHION_RATIOS.len());
@@ -555,9 +549,7 @@ mod tests {
             let takes = cushion[0] / 0.5 * (1.0 / cushion[1] - 1.0);
             assert!(late.iter().any(|late| (takes - late).abs() < 1e-9), "{cushion:?} {late:?}");
         }
-        let motor = study.subject("Motor").expect("it moves");
-        let nominal = motor.predict(&[], &Overrides::none()).expect("a prediction");
-        let score = motor.score(&nominal);
-        assert!(super::cushions(&Clues { subject: motor, nominal: &nominal, score: &score, ..clues }).is_empty());
+        let (motor, nominal, score) = moving(SLOW_PUSHER, "Motor");
+        assert!(super::cushions(&Clues { subject: &motor, nominal: &nominal, score: &score, ..clues }).is_empty());
     }
 }
