@@ -177,19 +177,13 @@ pub(super) fn find_phase(subjects: &[Subject], run: usize, known: Task) -> Resul
 
 /// The likeliest of all phases of a task, s; of those that cost the same its own.
 fn phase_of(voters: &[Voter], known: Task) -> Result<f64, EffectError> {
-    let cost = |phase_s: f64| -> Result<(f64, f64), EffectError> {
-        let task = Task { phase_s: phase_s.rem_euclid(known.every_s), ..known };
-        let each = voters.par_iter().map(|voter| Ok(voter.moments(Some(task))?.cost(known.age_s)));
-        Ok((each.collect::<Result<Vec<f64>, EffectError>>()?.iter().sum(), task.phase_s))
-    };
-    let mut best = cost(known.phase_s)?;
+    let mut best = Best::none();
     let mut try_all = |phases: &mut dyn Iterator<Item = f64>| -> Result<f64, EffectError> {
-        for phase_s in phases {
-            let found = cost(phase_s)?;
-            best = if found.0 < best.0 { found } else { best };
-        }
-        Ok(best.1)
+        let tasks = phases.map(|phase_s| Task { phase_s: phase_s.rem_euclid(known.every_s), ..known });
+        best.weigh(voters, tasks, Some(known.age_s))?;
+        Ok(best.task.phase_s)
     };
+    try_all(&mut [known.phase_s].into_iter())?;
     let phases = phases_of(known.every_s);
     let whole = known.every_s / f64::from(phases);
     let mut phase_s = try_all(&mut (0..phases).map(|phase| f64::from(phase) * whole))?;
@@ -281,10 +275,8 @@ impl Best {
     fn of_phases(voters: &[Voter], every_s: f64) -> Result<Best, EffectError> {
         let mut best = Best::none();
         let phases = phases_of(every_s);
-        for phase in 0..phases {
-            let phase_s = f64::from(phase) / f64::from(phases) * every_s;
-            best.weigh(voters, Task { every_s, phase_s, ..Task::default() })?;
-        }
+        let phases = (0..phases).map(|phase| f64::from(phase) / f64::from(phases) * every_s);
+        best.weigh(voters, phases.map(|phase_s| Task { every_s, phase_s, ..Task::default() }), None)?;
         Ok(best)
     }
 
@@ -310,15 +302,14 @@ impl Best {
     /// The best task with its phase between its neighbours, from voters that may have changed since.
     fn nearby(self, voters: &[Voter]) -> Result<Best, EffectError> {
         let mut best = Best::none();
-        best.weigh(voters, Task { age_s: 0.0, ..self.task })?;
+        best.weigh(voters, [self.task], None)?;
         for halving in 0..HALVINGS {
             let found = best.task;
-            let step = found.every_s / f64::from(phases_of(found.every_s) << halving);
-            for phase_s in [-2.0, -1.0, 1.0, 2.0].map(|steps| found.phase_s + steps * step) {
-                let phase_s = phase_s.rem_euclid(found.every_s.max(f64::MIN_POSITIVE));
-                if found.every_s > 0.0 {
-                    best.weigh(voters, Task { phase_s, age_s: 0.0, ..found })?;
-                }
+            if found.every_s > 0.0 {
+                let step = found.every_s / f64::from(phases_of(found.every_s) << halving);
+                let phases = [-2.0, -1.0, 1.0, 2.0].map(|steps| found.phase_s + steps * step);
+                let tasks = phases.map(|phase_s| Task { phase_s: phase_s.rem_euclid(found.every_s), ..found });
+                best.weigh(voters, tasks, None)?;
             }
         }
         Ok(best)
@@ -329,10 +320,10 @@ impl Best {
         let mut best = Best::none();
         for _ in 0..2 {
             best = Best::none();
-            best.weigh(voters, Task::default())?;
+            best.weigh(voters, [Task::default()], None)?;
             voters.par_iter_mut().try_for_each(|voter| voter.centre(best.task))?;
         }
-        best.weigh(voters, Task::default())?;
+        best.weigh(voters, [Task::default()], None)?;
         Ok(best)
     }
 
@@ -340,9 +331,8 @@ impl Best {
     fn between_commands(&mut self, voters: &[Voter]) -> Result<(), EffectError> {
         let found = self.task;
         if found.every_s > 0.0 {
-            for phase_s in phases_near(voters, found) {
-                self.weigh(voters, Task { phase_s, age_s: 0.0, ..found })?;
-            }
+            let phases = phases_near(voters, found).into_iter();
+            self.weigh(voters, phases.map(|phase_s| Task { phase_s, ..found }), None)?;
         }
         Ok(())
     }
@@ -351,14 +341,43 @@ impl Best {
         voters.par_iter().map(|voter| voter.moments(Some(task))).collect()
     }
 
-    /// Tries a task with every age.
-    fn weigh(&mut self, voters: &[Voter], task: Task) -> Result<(), EffectError> {
-        let each = Best::moments(voters, task)?;
-        let (cost, age_s) = likeliest_age(&each.iter().collect::<Vec<_>>());
-        let cost = cost + if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
-        if cost < self.cost {
-            let costs = each.iter().map(|moments| moments.cost(age_s)).collect();
-            *self = Best { cost, task: Task { age_s, ..task }, costs };
+    /// Tries tasks, with every age or with the one that is told. A counter knows a phase a hundred times better than what else there is, and is replayed at a
+    /// fraction of what a robot costs: where what the counters alone cost leaves a task no chance to be the best, nothing else is asked.
+    fn weigh(
+        &mut self,
+        voters: &[Voter],
+        tasks: impl IntoIterator<Item = Task>,
+        age_s: Option<f64>,
+    ) -> Result<(), EffectError> {
+        let age_of = |each: &[&Moments]| match age_s {
+            Some(age_s) => (each.iter().map(|moments| moments.cost(age_s)).sum(), age_s),
+            None => likeliest_age(each),
+        };
+        let told = |task: Task| -> Result<(f64, Task, Vec<Option<Moments>>), EffectError> {
+            let task = Task { age_s: 0.0, ..task };
+            let counted = |voter: &Voter| voter.is_a_counter().then(|| voter.moments(Some(task))).transpose();
+            let counted = voters.par_iter().map(counted).collect::<Result<Vec<_>, _>>()?;
+            let least = |(voter, counted): (&Voter, &Option<Moments>)| {
+                counted.as_ref().map_or_else(|| voter.least_cost(), |moments| age_of(&[moments]).0)
+            };
+            let of_a_task = if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
+            Ok((of_a_task + voters.iter().zip(&counted).map(least).sum::<f64>(), task, counted))
+        };
+        let mut told = tasks.into_iter().map(told).collect::<Result<Vec<_>, _>>()?;
+        told.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (least, task, counted) in told {
+            if least > self.cost {
+                break;
+            }
+            let each = voters.par_iter().zip(counted);
+            let each = each.map(|(voter, counted)| counted.map_or_else(|| voter.moments(Some(task)), Ok));
+            let each = each.collect::<Result<Vec<_>, _>>()?;
+            let (cost, age_s) = age_of(&each.iter().collect::<Vec<_>>());
+            let cost = cost + if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
+            if cost < self.cost {
+                let costs = each.iter().map(|moments| moments.cost(age_s)).collect();
+                *self = Best { cost, task: Task { age_s, ..task }, costs };
+            }
         }
         Ok(())
     }

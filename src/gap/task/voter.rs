@@ -11,6 +11,7 @@ use crate::gap::overrides::Overrides;
 use crate::gap::prediction::{Predicted, Prediction};
 use crate::gap::subject::Subject;
 use crate::gap::track::Track;
+use crate::prototype::kind::PortDescriptor;
 use crate::value::Quantity;
 
 /// How often nominal parameters are fitted under a task, and how many standard deviations off they are taken to be at most.
@@ -170,6 +171,11 @@ impl Voter {
     /// Whether it counts, and one nominal parameter alone may be off.
     pub fn is_a_counter(&self) -> bool {
         self.free.len() == 1 && self.kept.iter().any(|(place, _)| self.subject.signals[*place].is_count)
+    }
+
+    /// As little as it can cost under any task unless its floors are too high.
+    pub fn least_cost(&self) -> f64 {
+        self.count * (2.0 * LEAST_SQUARE).ln()
     }
 
     /// Whether it is a counter of which a task that costs it so much leaves much.
@@ -400,7 +406,7 @@ impl Voter {
             products: strain.dot(&by_age),
             ..Sums::default()
         };
-        Ok(Moments { signals, strained })
+        Ok(Moments { ports: self.subject.kind.ports, signals, strained })
     }
 }
 
@@ -451,6 +457,8 @@ impl Sums {
 /// What is left of each level of a device, and how far its nominal parameters are strained for that. Each level has a scale of its own: one axis
 /// of a robot may be far off, and its others know how old reports are.
 pub(super) struct Moments {
+    /// The ports of the device's kind.
+    ports: &'static [PortDescriptor],
     signals: Vec<Sums>,
     strained: Sums,
 }
@@ -460,6 +468,12 @@ impl Moments {
     fn near(&self, age: f64) -> Moments {
         let is_near = |of: &&Sums| of.at(age) < NEAR * of.count;
         Moments { signals: self.signals.iter().filter(is_near).copied().collect(), ..*self }
+    }
+
+    /// Whether both are of one law: a belt on a curve is the same as a straight one.
+    fn has_law_of(&self, other: &Moments) -> bool {
+        let names = |of: &Moments| of.ports.iter().map(|port| port.name).collect::<Vec<_>>();
+        names(self) == names(other)
     }
 
     /// The mean square of what is left of reports that are so old.
@@ -486,11 +500,19 @@ pub(super) fn age_of_most(each: &[Moments], found: f64) -> f64 {
         let nearer = |moments: &&Moments| moments.cost(found) - moments.cost(age_s);
         // What has a gap of its own may mean that by another age; belts that were told the same and are rounded alike are one witness.
         let agrees = |moments: &&&Moments| nearer(moments) > SURELY_NEARER && moments.mean_square(age_s) < EXPLAINED;
-        let mut agreeing: Vec<f64> = others.iter().filter(agrees).map(nearer).collect();
-        agreeing.sort_by(f64::total_cmp);
-        agreeing.dedup();
+        let mut agreeing: Vec<&&Moments> = others.iter().filter(agrees).collect();
+        agreeing.sort_by(|a, b| nearer(a).total_cmp(&nearer(b)));
+        agreeing.dedup_by(|a, b| nearer(a) == nearer(b));
+        // What the law of a kind leaves is the same in all of it: those that are explained by what was found as well are one witness.
+        let (explained, mut witnesses): (Vec<&Moments>, Vec<&Moments>) =
+            agreeing.into_iter().partition(|moments| moments.mean_square(found) < EXPLAINED);
+        for moments in explained {
+            if !witnesses.iter().any(|other| other.has_law_of(moments)) {
+                witnesses.push(moments);
+            }
+        }
         let sum = others.iter().map(nearer).sum::<f64>();
-        if sum > most.0 && agreeing.len() >= LEAST_DEVICES {
+        if sum > most.0 && witnesses.len() >= LEAST_DEVICES {
             most = (sum, age_s);
         }
     }
@@ -521,6 +543,7 @@ pub(super) fn likeliest_age(each: &[&Moments]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::device::KINDS;
 
     /// What the columns are to each other, and all of it computed anew from samples that weigh the same, say the same.
     #[test]
@@ -543,7 +566,11 @@ mod tests {
     }
 
     fn only(level: Sums) -> Moments {
-        Moments { signals: vec![level], strained: Sums::default() }
+        Moments { ports: &[], signals: vec![level], strained: Sums::default() }
+    }
+
+    fn ports_of(kind: &str) -> &'static [PortDescriptor] {
+        KINDS.iter().find(|of| of.name == kind).expect("one of the library's").ports
     }
 
     #[test]
@@ -563,8 +590,12 @@ mod tests {
     /// A motor that is 60 µs late knows that a hundred times better than a robot and an axis know that they are not.
     #[test]
     fn one_device_is_not_heard_against_two() {
-        let [motor, robot, axis] =
-            [(6e-5, 1e-7), (0.0, 8e-6), (0.0, 9e-6)].map(|(age, exact)| speaking_for(age, exact));
+        let [motor, robot, axis] = [
+            ("kinetwin.EncoderMotor", 6e-5, 1e-7),
+            ("kinetwin.CartesianRobot", 0.0, 8e-6),
+            ("kinetwin.ServoAxis", 0.0, 9e-6),
+        ]
+        .map(|(kind, age, exact)| Moments { ports: ports_of(kind), ..speaking_for(age, exact) });
         let (_, found) = likeliest_age(&[&motor, &robot, &axis]);
         assert!(found > 5e-5, "{found}");
         assert!(age_of_most(&[motor, robot, axis], found) < 1e-5);
@@ -575,6 +606,25 @@ mod tests {
         let two = [(6e-5, 1e-7), (0.0, 8e-6)].map(|(age, exact)| speaking_for(age, exact));
         assert_eq!(age_of_most(&two, found), found);
     }
+
+    /// A robot knows that reports are 0.9 ms old to a few µs. Belts, each of which is explained by that, all ease off as their law does not, by which they seem
+    /// older: with none of another kind they are one witness; those that are off by it are as many as they are.
+    #[test]
+    fn what_the_law_of_a_kind_leaves_does_not_say_how_old_reports_are() {
+        let belts = |exact: f64| {
+            let of = |kind: &str, age: f64| Moments { ports: ports_of(kind), ..speaking_for(age, exact) };
+            let [straight, curve] = ["kinetwin.StraightConveyor", "kinetwin.ConveyorCurve"];
+            [of(straight, 1.05e-3), of(curve, 1.06e-3), of(straight, 1.07e-3)]
+        };
+        let age = |exact: f64| {
+            let [a, b, c] = belts(exact);
+            let robot = Moments { ports: ports_of("kinetwin.CartesianRobot"), ..speaking_for(9e-4, 1e-6) };
+            age_of_most(&[robot, a, b, c], 9e-4)
+        };
+        assert_eq!(age(2e-5), 9e-4);
+        assert!(age(5e-6) > 1e-3);
+    }
+
     /// An axis knows that reports are 0.4 ms old; another, twenty floors off whatever their age, costs least where they are not.
     #[test]
     fn what_is_far_off_does_not_say_how_old_reports_are() {
