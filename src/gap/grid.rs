@@ -175,9 +175,8 @@ fn rebuilt_about(stamps: &[f64], mut cycle: f64) -> Option<Grid> {
     let rest_of =
         |cycle: f64| stamps.iter().map(|stamp| stamp - first - number(*stamp, cycle) * cycle).collect::<Vec<f64>>();
     let rounded = (cycle / ROUND_CYCLE_S).round() * ROUND_CYCLE_S;
-    let errors = if error > 0.0 { (rounded - cycle).abs() / error } else { 0.0 };
-    let is_rounded = (rounded - cycle).abs() <= 3.0 * error + 1e-12
-        || errors <= MOST_ERRORS && begins_at_one_line(&rest_of(rounded));
+    let off = (rounded - cycle).abs();
+    let is_rounded = off <= 3.0 * error + 1e-12 || off <= MOST_ERRORS * error && begins_at_one_line(&rest_of(rounded));
     if is_rounded && rounded > 0.0 {
         cycle = rounded;
     }
@@ -210,10 +209,12 @@ fn rebuilt_about(stamps: &[f64], mut cycle: f64) -> Option<Grid> {
 /// slope of all is not known to a drift of ten of these.
 fn begins_at_one_line(rest: &[f64]) -> bool {
     const PARTS: usize = 4;
+    /// How many stamps of each: where they are few, ten times what is expected is as much as a drift of all that lateness.
+    const ENOUGH: usize = 40;
     /// Of so many times what is expected, by chance in one of five thousand grids.
     const FURTHEST: f64 = 10.0;
     let length = rest.len() / PARTS;
-    if length < LEAST_STAMPS {
+    if length < ENOUGH {
         return false;
     }
     let least = |part: &[f64]| part.iter().copied().fold(f64::INFINITY, f64::min);

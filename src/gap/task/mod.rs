@@ -349,31 +349,30 @@ impl Best {
         tasks: impl IntoIterator<Item = Task>,
         age_s: Option<f64>,
     ) -> Result<(), EffectError> {
-        let age_of = |each: &[&Moments]| match age_s {
-            Some(age_s) => (each.iter().map(|moments| moments.cost(age_s)).sum(), age_s),
-            None => likeliest_age(each),
+        let cost_of = |task: Task, each: &[&Moments]| -> (f64, f64) {
+            let (cost, age_s) = match age_s {
+                Some(age_s) => (each.iter().map(|moments| moments.cost(age_s)).sum(), age_s),
+                None => likeliest_age(each),
+            };
+            (cost + if task.every_s > 0.0 { OF_A_TASK } else { 0.0 }, age_s)
         };
-        let told = |task: Task| -> Result<(f64, Task, Vec<Option<Moments>>), EffectError> {
-            let task = Task { age_s: 0.0, ..task };
+        let least_of_others: f64 = voters.iter().filter(|voter| !voter.is_a_counter()).map(Voter::least_cost).sum();
+        let by_counters = |task: Task| -> Result<(f64, Task, Vec<Option<Moments>>), EffectError> {
             let counted = |voter: &Voter| voter.is_a_counter().then(|| voter.moments(Some(task))).transpose();
             let counted = voters.par_iter().map(counted).collect::<Result<Vec<_>, _>>()?;
-            let least = |(voter, counted): (&Voter, &Option<Moments>)| {
-                counted.as_ref().map_or_else(|| voter.least_cost(), |moments| age_of(&[moments]).0)
-            };
-            let of_a_task = if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
-            Ok((of_a_task + voters.iter().zip(&counted).map(least).sum::<f64>(), task, counted))
+            let (least, _) = cost_of(task, &counted.iter().flatten().collect::<Vec<_>>());
+            Ok((least + least_of_others, task, counted))
         };
-        let mut told = tasks.into_iter().map(told).collect::<Result<Vec<_>, _>>()?;
-        told.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (least, task, counted) in told {
+        let mut tasks = tasks.into_iter().map(by_counters).collect::<Result<Vec<_>, _>>()?;
+        tasks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (least, task, counted) in tasks {
             if least > self.cost {
                 break;
             }
             let each = voters.par_iter().zip(counted);
             let each = each.map(|(voter, counted)| counted.map_or_else(|| voter.moments(Some(task)), Ok));
             let each = each.collect::<Result<Vec<_>, _>>()?;
-            let (cost, age_s) = age_of(&each.iter().collect::<Vec<_>>());
-            let cost = cost + if task.every_s > 0.0 { OF_A_TASK } else { 0.0 };
+            let (cost, age_s) = cost_of(task, &each.iter().collect::<Vec<_>>());
             if cost < self.cost {
                 let costs = each.iter().map(|moments| moments.cost(age_s)).collect();
                 *self = Best { cost, task: Task { age_s, ..task }, costs };

@@ -472,8 +472,7 @@ impl Moments {
 
     /// Whether both are of one law: a belt on a curve is the same as a straight one.
     fn has_law_of(&self, other: &Moments) -> bool {
-        let names = |of: &Moments| of.ports.iter().map(|port| port.name).collect::<Vec<_>>();
-        names(self) == names(other)
+        self.ports.iter().map(|port| port.name).eq(other.ports.iter().map(|port| port.name))
     }
 
     /// The mean square of what is left of reports that are so old.
@@ -499,8 +498,8 @@ pub(super) fn age_of_most(each: &[Moments], found: f64) -> f64 {
         let (_, age_s) = likeliest_age(&others);
         let nearer = |moments: &&Moments| moments.cost(found) - moments.cost(age_s);
         // What has a gap of its own may mean that by another age; belts that were told the same and are rounded alike are one witness.
-        let agrees = |moments: &&&Moments| nearer(moments) > SURELY_NEARER && moments.mean_square(age_s) < EXPLAINED;
-        let mut agreeing: Vec<&&Moments> = others.iter().filter(agrees).collect();
+        let agrees = |moments: &&Moments| nearer(moments) > SURELY_NEARER && moments.mean_square(age_s) < EXPLAINED;
+        let mut agreeing: Vec<&Moments> = others.iter().copied().filter(agrees).collect();
         agreeing.sort_by(|a, b| nearer(a).total_cmp(&nearer(b)));
         agreeing.dedup_by(|a, b| nearer(a) == nearer(b));
         // What the law of a kind leaves is the same in all of it: those that are explained by what was found as well are one witness.
